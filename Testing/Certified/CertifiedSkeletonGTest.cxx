@@ -1,5 +1,6 @@
 #include "CertifiedFixtures.h"
 
+#include "VoxelCoreTesting/Random.h"
 #include "VoxelCoreTesting/Shapes.h"
 #include "voxelcore/BoundaryVertices.h"
 
@@ -596,6 +597,60 @@ TEST(CertifiedSkeleton, PartsThatShareALayerHaveTheirEndsInItAtTheSamePlaces)
 TEST(HeavyCertifiedSkeleton, PartsThatShareALayerHaveTheirEndsInItAtTheSamePlaces)
 {
   ExpectPartsMeet(200);
+}
+
+/** A tube with a ball at its side, wider than its neck, in a random place and direction. */
+VoxelShape
+TubeWithDome(testing::Random & random, double tube, double ball)
+{
+  const auto direction = [&random] {
+    Vector3 v{};
+    do
+    {
+      v = { 2 * random.Unit() - 1, 2 * random.Unit() - 1, 2 * random.Unit() - 1 };
+    } while (Length(v) > 1 || Length(v) < 0.1);
+    return v;
+  };
+  Vector3 along = direction();
+  along = AddScaled({ 0, 0, 0 }, 1 / Length(along), along);
+  Vector3 across = direction();
+  across = AddScaled(across, -Dot(across, along), along);
+  const double  off = (ball + 0.5 * tube) / Length(across);
+  const Vector3 middle{ 32 + random.Unit(), 32 + random.Unit(), 32 + random.Unit() };
+  const Vector3 centre = AddScaled(middle, off, across);
+  VoxelShape    shape(VoxelBox{ { 0, 0, 0 }, { 64, 64, 64 } });
+  for (std::int32_t z = 0; z < 64; ++z)
+  {
+    for (std::int32_t y = 0; y < 64; ++y)
+    {
+      for (std::int32_t x = 0; x < 64; ++x)
+      {
+        const Vector3 at{ x + 0.5, y + 0.5, z + 0.5 };
+        const Vector3 from = Minus(at, middle);
+        const double  height = std::clamp(Dot(from, along), -26.0, 26.0);
+        if (Length(AddScaled(from, -height, along)) <= tube || Distance(at, centre) <= ball)
+        {
+          shape.Insert(x, y, z);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+TEST(CertifiedSkeleton, ADomeAtTheSideOfATubeHasItsBranchHoweverItIsTurned)
+{
+  const std::uint64_t firstSeed = 6300;
+  std::cout << "seeds from " << firstSeed << '\n';
+  for (std::uint64_t seed = firstSeed; seed < firstSeed + 8; ++seed)
+  {
+    testing::Random  random(seed);
+    CertifiedRequest request = Lambdas({ "0" });
+    request.skeleton = Skeleton();
+    request.spendsCores = true;
+    const CertifiedResult result = ComputeCertified(TubeWithDome(random, 3, 9), Grid({ 1, 1, 1 }), request);
+    EXPECT_EQ(result.skeleton->skeleton.table.branches.size(), 3U) << "seed " << seed;
+  }
 }
 
 } // namespace

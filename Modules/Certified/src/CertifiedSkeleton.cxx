@@ -9,6 +9,7 @@
 #include "voxelcore/BranchTips.h"
 #include "voxelcore/ComplexTopology.h"
 #include "voxelcore/CrossSections.h"
+#include "voxelcore/DomeBranches.h"
 #include "voxelcore/Enclosure.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OpenShape.h"
@@ -252,6 +253,7 @@ MeasureCurves(const BurnedCurves &    burned,
   const double     window = InMeanVoxels(request.smooth, ComputeSpacingWeights(spacing), spacing, shape.box);
   const VoxelReach reach = HalfAVoxel(shape.geometry);
   const OpenShape  inside(voxels, shape.geometry);
+  BranchIntoDomes(graph, inside, StandOutOn(shape, request));
   FitBranches(graph, window, reach, inside);
   const BranchRequest & branches = request.branches;
   const double          limit = branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0;

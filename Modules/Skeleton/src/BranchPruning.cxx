@@ -1,6 +1,7 @@
 // Branches that go because they are short, or because they hang loose after a cut.
 
 #include "GraphLines.h"
+#include "voxelcore/DomeBranches.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
@@ -211,9 +212,11 @@ private:
 std::size_t
 PruneBranches(SkeletonGraph & graph, const BranchLimit & limit)
 {
-  const auto key = [&](double length, ElementIndex, ElementIndex base) {
-    const double least = std::max(limit.lengthMm, limit.radiusRatio * graph.radius[base]);
-    return least > 0 ? length / least : std::numeric_limits<double>::infinity();
+  const auto key = [&](double length, ElementIndex tip, ElementIndex base) {
+    const double dome = std::max(0.0, graph.radius[tip] - graph.radius[base]);
+    const double radius = dome > 0 ? kDomeOfRadius * graph.radius[tip] : graph.radius[base];
+    const double least = std::max(limit.lengthMm, limit.radiusRatio * radius);
+    return least > 0 ? (length + dome) / least : std::numeric_limits<double>::infinity();
   };
   return TipPruning(graph, key).Run(1);
 }

@@ -101,19 +101,15 @@ StandingBranches(const MedialComplex &       surface,
     }
     EndSearch  search(surface, fire, surfaceTime, scale, branch);
     const bool standsOut = candidate.standOut >= standOut;
-    const auto standsOutBy = [&](const Vector3 & place, double radius) {
-      double least = std::numeric_limits<double>::infinity();
-      for (const ElementIndex vertex : fire.order)
-      {
-        if (all[branchOf[vertex]].standOut > candidate.standOut)
-        {
-          least = std::min(least, Distance(place, surface.positions[vertex]) + radius - surface.radius[vertex]);
-        }
-      }
-      return least;
+    const auto standsOutOfAll = [&](const Vector3 & place, double radius, double least) {
+      return std::ranges::none_of(fire.order, [&](ElementIndex vertex) {
+        return all[branchOf[vertex]].standOut > candidate.standOut &&
+               Distance(place, surface.positions[vertex]) + radius - surface.radius[vertex] < least;
+      });
     };
     const bool isFound = (standsOut && search.Run()) || search.RunAsTube() ||
-                         (!candidate.isAxis && search.RunAsEnd(standOut, standsOutBy));
+                         (!candidate.isAxis && search.RunAsEnd(standOut, standsOutOfAll)) ||
+                         (!candidate.isAxis && standsOut && search.RunAsDome(standOut, standsOutOfAll));
     if (!isFound)
     {
       branch.end = branch.path.size() - 1;

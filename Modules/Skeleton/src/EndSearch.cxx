@@ -1,5 +1,7 @@
 #include "EndSearch.h"
 
+#include "voxelcore/DomeBranches.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -105,7 +107,7 @@ EndSearch::RunAsTube()
 }
 
 bool
-EndSearch::RunAsEnd(double standOut, const StandsOutBy & standsOut)
+EndSearch::RunAsEnd(double standOut, const StandsOut & standsOut)
 {
   const std::size_t end = Last();
   const auto        cap = CapCentre(0, kTubeWindow * m_Scale.voxel);
@@ -118,11 +120,35 @@ EndSearch::RunAsEnd(double standOut, const StandsOutBy & standsOut)
   const double least = std::max(standOut, kEndOfRadius * radius);
   const double way = Way(first, end);
   if (way < least || std::abs(Growth(first, end)) > kTubeGrowth * way || !IsRound(first, end) ||
-      standsOut(m_Surface.positions[m_Path[first]], radius) < least)
+      !standsOut(m_Surface.positions[m_Path[first]], radius, least))
   {
     return false;
   }
   EndAt(cap);
+  return true;
+}
+
+bool
+EndSearch::RunAsDome(double standOut, const StandsOut & standsOut)
+{
+  std::size_t       greatest = 0;
+  const std::size_t end = Last();
+  for (std::size_t at = 0; at <= end; ++at)
+  {
+    if (m_Surface.radius[m_Path[at]] >= m_Surface.radius[m_Path[greatest]])
+    {
+      greatest = at;
+    }
+  }
+  const double radius = m_Surface.radius[m_Path[greatest]];
+  const double foot = m_Surface.radius[m_Path.back()];
+  const double least = std::max(standOut, kDomeOfRadius * radius);
+  if (radius <= foot || Way(greatest, m_Path.size() - 1) + radius - foot < least ||
+      !standsOut(m_Surface.positions[m_Path[greatest]], radius, least))
+  {
+    return false;
+  }
+  EndAt({ greatest, 0 });
   return true;
 }
 

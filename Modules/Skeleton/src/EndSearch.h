@@ -16,8 +16,8 @@ namespace voxelcore
 class EndSearch
 {
 public:
-  /** By how much the ball at a place, of a radius, stands out of all others. */
-  using StandsOutBy = std::function<double(const Vector3 & place, double radius)>;
+  /** Whether the ball at a place, of a radius, stands out of all others by at least so much. */
+  using StandsOut = std::function<bool(const Vector3 & place, double radius, double least)>;
 
   EndSearch(const MedialComplex &       surface,
             const CurveFire &           fire,
@@ -40,10 +40,14 @@ public:
   bool
   RunAsTube();
 
-  /** Whether the curve is the axis of a round tube whose last ball stands out of all others by `standOut`:
-   *  standsOut(place, radius) says by how much it does. */
+  /** Whether the curve is the axis of a round tube whose last ball stands out of all others by `standOut`. */
   bool
-  RunAsEnd(double standOut, const StandsOutBy & standsOut);
+  RunAsEnd(double standOut, const StandsOut & standsOut);
+
+  /** Whether the curve leads into a dome: a ball greater than the one it comes from, that stands out of all others by
+   *  `standOut`. */
+  bool
+  RunAsDome(double standOut, const StandsOut & standsOut);
 
 private:
   /** A place on the path: so much of the way from a vertex to the next. */
