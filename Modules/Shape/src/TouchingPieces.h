@@ -49,9 +49,8 @@ struct JoinedPieces
 
 /** Joins 6-connected pieces that touch over edges and corners, by one voxel or two each, until none can be joined so or
  *  `least` are left. Each voxel put in joins pieces that are apart, or prepares that, and changes nothing else: neither
- *  a loop nor a cavity comes or goes, what does not touch stays apart, and what hangs together stays as it is. The result turns
- *  with the grid.
- */
+ *  a loop nor a cavity comes or goes, what does not touch stays apart, and what hangs together stays as it is. The
+ *  result turns with the grid. */
 JoinedPieces
 JoinTouchingPieces(const VoxelShape & shape, std::int64_t least = 1);
 

@@ -104,8 +104,9 @@ using VoxelReach = std::array<std::array<double, 3>, 3>;
 void
 FitBranches(SkeletonGraph & graph, double window, const VoxelReach & reach);
 
-/** A threshold for the length of a branch that ends in a tip. One that leads into a dome, a ball greater than that at its
- *  other end, is by the difference of their radii longer than its line, and held against kDomeOfRadius of the ball. */
+/** A threshold for the length of a branch that ends in a tip. One that leads into a dome, a ball greater than that at
+ *  its other end, is by the difference of their radii longer than its line, and held against kDomeOfRadius of the
+ *  ball. */
 struct BranchLimit
 {
   double lengthMm = 0;    ///< shorter ones go
