@@ -26,7 +26,7 @@ COMMANDS = {
     "skeleton": ["skeleton", "SCAN", "-o", "OUT/s.vtp", "--also", "csv,swc"],
     "thickness": ["thickness", "SCAN", "-o", "OUT/t.nrrd", "--table", "OUT/t.csv"],
     "sheets": ["sheets", "SCAN", "-o", "OUT/s.vtp", "--table", "OUT/s.csv", "--voxels", "OUT/v.nrrd"],
-    "roots": ["roots", "SCAN", "-o", "OUT/r", "--no-pictures"],
+    "roots": ["roots", "SCAN", "-o", "OUT/r", "--no-pictures", "--border", "closed"],
 }
 
 

@@ -1,6 +1,9 @@
 #include "RootsFolder.h"
 
+#include "voxelcore/BodyFrame.h"
+#include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/MedialModel.h"
 #include "voxelcore/RootsJob.h"
 #include "voxelcore/VerifyJob.h"
@@ -372,6 +375,75 @@ TEST_F(RootsJob, WhatTheUserAsksForOfTheCleaningTakesPrecedence)
   const auto closed = Roots("a.nrrd", "closed/", { { "close", "4vox" } }).report.parameters.edits;
   EXPECT_FALSE(closed.fillHollows);
   EXPECT_TRUE(closed.close);
+}
+
+TEST_F(RootsJob, TheLengthOfTheSkeletonIsOnRootsOrListed)
+{
+  Scan("a.nrrd", 0, 3);
+  const RootsResult   result = Roots("a.nrrd", "out/");
+  const RootBalance & balance = result.model.traits.balance;
+  EXPECT_GT(balance.skeleton, 0);
+  EXPECT_NEAR(balance.Missing(), 0, 1e-9 * balance.skeleton);
+  EXPECT_LT(balance.bridges, 0.01 * balance.skeleton);
+  const auto json = nlohmann::json::parse(Bytes("out/report.json")).at("roots").at("balance");
+  EXPECT_NEAR(json.at("skeleton").get<double>(), balance.skeleton, 1e-4 * balance.skeleton);
+  EXPECT_NE(RootsText(result).find("within their parents"), std::string::npos);
+}
+
+TEST_F(RootsJob, AStemThatIsThinnerThanItsLateralsIsWarnedOf)
+{
+  Scan("a.nrrd");
+  const auto warns = [](const RootsResult & result) {
+    return std::ranges::any_of(result.warnings, [](const std::string & warning) {
+      return warning.find("the stem is") != std::string::npos && warning.find("--stem X,Y,Z") != std::string::npos;
+    });
+  };
+  const RootsResult right = Roots("a.nrrd", "out/");
+  EXPECT_FALSE(warns(right));
+  const RootAxis & thin = right.model.roots.axes.back();
+  std::string      place;
+  for (const double x : right.model.graph.positions[thin.points.back()])
+  {
+    place += (place.empty() ? "" : ",") + std::to_string(x);
+  }
+  EXPECT_TRUE(warns(Roots("a.nrrd", "thin/", { { "stem", place } })));
+  EXPECT_THROW(Roots("a.nrrd", "no/", { { "stem", "1,2" } }), UsageError);
+}
+
+// Where in the grid a plant lies is nothing to its roots (BodyFrame.h).
+TEST_F(RootsJob, APlantElsewhereInTheGridHasTheSameRoots)
+{
+  PhantomJobOptions phantom = Scan("grey.nrrd", 0, 3);
+  phantom.scan.reset();
+  phantom.output = At("a.nrrd");
+  RunPhantomJob(phantom);
+  LabelMap                          volume = ReadLabelVolume(At("a.nrrd"), {});
+  const std::array<std::int32_t, 3> by{ 5, 71, 12 };
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    volume.geometry.size[k] += by[k] + 3;
+    volume.geometry.origin[k] -= by[k] * volume.geometry.spacing[k];
+  }
+  LabelShape moved = volume.labels.at(0);
+  auto       lower = moved.shape.Box().lower;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    lower[k] += by[k];
+  }
+  moved.shape = MovedTo(lower, moved.shape);
+  WriteLabelVolume(At("b.nrrd"), volume.geometry, { moved });
+  const RootsResult here = Roots("a.nrrd", "a/");
+  const RootsResult there = Roots("b.nrrd", "b/");
+  ASSERT_TRUE(here.topology) << "roots touch";
+  EXPECT_EQ(here.model.graph.positions, there.model.graph.positions);
+  for (const char * file : { "roots.csv", "levels.csv", "roots.swc" })
+  {
+    const auto rows = [&](const std::string & folder) {
+      const std::string text = Bytes(folder + file);
+      return text.substr(text.find("\n", text.rfind("\n#") == std::string::npos ? 0 : text.rfind("\n#") + 1));
+    };
+    EXPECT_EQ(rows("a/"), rows("b/")) << file;
+  }
 }
 
 } // namespace

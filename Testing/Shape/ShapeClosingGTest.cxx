@@ -298,5 +298,54 @@ TEST(ShapeClosing, WidthsAreNumbersWithUnits)
   EXPECT_EQ(BallOfDiameter(ParseGapWidth("2vox"), inVoxels).squaredRadius, 1);
 }
 
+// A lumen that the scan's border cuts ends there; one that opens within the scan stays open.
+TEST(ShapeClosing, ALumenThatTheBorderOfTheScanCutsIsClosedThere)
+{
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (const bool isUpper : { false, true })
+    {
+      for (const std::int32_t margin : { 0, 1 })
+      {
+        constexpr std::int32_t side = 17;
+        VoxelShape             tube({ { margin, margin, margin }, { side, side, side } });
+        std::uint64_t          lumen = 0;
+        for (std::int32_t along = 0; along < side; ++along)
+        {
+          for (std::int32_t u = 0; u < side; ++u)
+          {
+            for (std::int32_t v = 0; v < side; ++v)
+            {
+              const std::int32_t square = (u - 8) * (u - 8) + (v - 8) * (v - 8);
+              const bool         isEnd = isUpper ? along < 2 : along > side - 3;
+              if (square > 64)
+              {
+                continue;
+              }
+              std::array<std::int32_t, 3> at{ u, u, v };
+              at[axis] = along;
+              at[axis == 0 ? 1 : 0] = u;
+              at[axis == 2 ? 1 : 2] = v;
+              if (square > 25 || isEnd)
+              {
+                tube.Insert(at[0] + margin, at[1] + margin, at[2] + margin);
+              }
+              else
+              {
+                ++lumen;
+              }
+            }
+          }
+        }
+        const std::int64_t size = side + 2 * margin;
+        EXPECT_EQ(FillHollows(tube, BallOf("4vox")).voxelsAdded, 0U);
+        const EditedShape filled =
+          FillHollows(tube, BallOf("4vox"), {}, std::array<std::int64_t, 3>{ size, size, size });
+        EXPECT_EQ(filled.voxelsAdded, margin == 0 ? lumen : 0) << axis << isUpper << margin;
+      }
+    }
+  }
+}
+
 } // namespace
 } // namespace voxelcore::testing

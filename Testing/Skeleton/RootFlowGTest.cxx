@@ -1,8 +1,10 @@
-#include "RootFlow.h"
+#include "RootStem.h"
 
 #include "GraphBuilder.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace voxelcore::testing
 {
@@ -27,42 +29,79 @@ EndAt(const SkeletonGraph & graph, const Spacing3 & place, const Spacing3 & othe
   return {};
 }
 
-// Thickness is that over a tenth of the diagonal, so a short swelling at a tip makes no stem.
-TEST(RootFlow, AStemIsThickOverATenthOfTheDiagonal)
+// A swelling, or a stub within it, is thick and not long: the stem is the thick way that is long, from its thick end.
+TEST(RootFlow, AStemIsTheThickLongWay)
 {
   GraphBuilder builder;
-  builder.Line({ 0, 0, 0 }, { 2, 0, 0 }, 6);
-  builder.Line({ 2, 0, 0 }, { 60, 0, 0 }, 1);
+  builder.Line({ 0, 0, 0 }, { 4, 0, 0 }, 6);
+  builder.Line({ 4, 0, 0 }, { 60, 0, 0 }, 1);
+  builder.Line({ 60, 0, 0 }, { 60, 60, 0 }, 4);
   builder.Line({ 60, 0, 0 }, { 120, 0, 0 }, 3);
-  builder.Line({ 2, 0, 0 }, { 2, 10, 0 }, 0.5);
-  builder.Line({ 60, 0, 0 }, { 60, 10, 0 }, 0.5);
+  builder.Line({ 4, 0, 0 }, { 4, 10, 0 }, 0.5);
   const SkeletonGraph graph = builder.Graph();
   const RootBranches  branches(graph);
-  const auto          stems = FindStems(branches, std::nullopt, 1);
+  const auto          stems = FindStems(branches, std::nullopt, {});
   ASSERT_EQ(stems.size(), 1U);
-  EXPECT_EQ(graph.positions[branches.PointFrom(stems[0], 0)], (Spacing3{ 120, 0, 0 }));
+  ASSERT_EQ(stems[0].size(), 2U) << "it does not go on into what is much thinner";
+  EXPECT_EQ(graph.positions[branches.PointFrom(stems[0][0], 0)], (Spacing3{ 60, 60, 0 }));
+  EXPECT_EQ(graph.positions[branches.PointFrom(stems[0][1].Other(), 0)], (Spacing3{ 120, 0, 0 }));
 }
 
-// Thickness counts as part of the greatest, height as part of the plant's: in any unit as much as each other.
-TEST(RootFlow, AThickStemIsTakenBeforeAHigherThinOneInAnyUnit)
+// A column with spokes at its nodes, roots at its foot much thinner than it, and a root that stands up from its head.
+TEST(RootFlow, AStemGoesStraightThroughItsNodesAndEndsWhereOnlyRootsGoOn)
 {
   GraphBuilder builder;
-  builder.Line({ 0, 0, 50 }, { 0, 0, 100 }, 1);
-  builder.Line({ 0, 0, 50 }, { 30, 0, 60 }, 3);
-  builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 1);
-  for (const double unit : { 1.0 / 1024, 1.0, 1024.0 })
+  builder.Line({ 0, 0, 100 }, { 0, 0, 70 }, 10);
+  builder.Line({ 0, 0, 70 }, { 0, 0, 40 }, 9);
+  builder.Line({ 0, 0, 40 }, { 0, 0, 20 }, 8);
+  for (const double z : { 70.0, 40.0, 20.0 })
   {
-    SkeletonGraph graph = builder.Graph();
-    for (std::size_t point = 0; point < graph.positions.size(); ++point)
+    for (const double side : { -1.0, 1.0 })
     {
-      const Spacing3 & at = graph.positions[point];
-      graph.positions[point] = { unit * at[0], unit * at[1], unit * at[2] };
-      graph.radius[point] *= unit;
+      builder.Line({ 0, 0, z }, { side * 80, 0, z - 60 }, 2);
+      builder.Line({ 0, 0, z }, { 0, side * 80, z - 60 }, 2);
     }
-    const RootBranches branches(graph);
-    const auto         stems = FindStems(branches, Vector3{ 0, 0, 1 }, 1);
-    ASSERT_EQ(stems.size(), 1U);
-    EXPECT_EQ(graph.positions[branches.PointFrom(stems[0], 0)][2], 60 * unit);
+  }
+  const SkeletonGraph graph = builder.Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  EXPECT_EQ(graph.positions[roots.axes[0].points.front()], (Spacing3{ 0, 0, 100 }));
+  EXPECT_EQ(graph.positions[roots.axes[0].points.back()], (Spacing3{ 0, 0, 20 }));
+  EXPECT_EQ(roots.axes.size(), 13U);
+  EXPECT_EQ(roots.axes[0].children, 12);
+}
+
+// Whatever the stem begins at, no branch is left without a root but bridges between roots that touch.
+TEST(RootFlow, BranchesAtTheBaseOfAStemSpringFromIt)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 40 }, 8);
+  builder.Line({ 0, 0, 100 }, { 40, 0, 120 }, 1);
+  builder.Line({ 0, 0, 100 }, { -40, 0, 120 }, 1);
+  builder.Line({ 40, 0, 120 }, { 60, 0, 120 }, 1);
+  builder.Line({ 40, 0, 120 }, { 40, 30, 120 }, 1);
+  builder.Line({ 0, 0, 40 }, { 30, 0, 0 }, 1);
+  builder.Line({ 0, 0, 40 }, { -30, 0, 0 }, 1);
+  const SkeletonGraph graph = builder.Graph();
+  const RootHierarchy roots = FindRoots(graph);
+  EXPECT_EQ(std::count(roots.rootOf.begin(), roots.rootOf.end(), kNoRoot), 0);
+  EXPECT_EQ(roots.axes[0].children, 4);
+  EXPECT_EQ(roots.axes.size(), 6U);
+}
+
+// What springs from a lateral where that is still within the stem is a lateral of the stem.
+TEST(RootFlow, RootsThatPartWithinTheStemSpringFromTheStem)
+{
+  for (const double away : { 6.0, 40.0 })
+  {
+    GraphBuilder builder;
+    builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, 10);
+    builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 10);
+    builder.Line({ 0, 0, 50 }, { away, 0, 50 }, 2);
+    builder.Line({ away, 0, 50 }, { 90, 0, 20 }, 2);
+    builder.Line({ away, 0, 50 }, { 90, 40, 50 }, 2);
+    const RootHierarchy roots = FindRoots(builder.Graph());
+    ASSERT_EQ(roots.axes.size(), 3U);
+    EXPECT_EQ(roots.axes[2].level, away < 10 ? 1 : 2);
   }
 }
 
@@ -134,7 +173,7 @@ TEST(RootFlow, AStraightStemIsRunThroughFromItsBaseWhateverLeavesIt)
   builder.Line({ 0, 40, 70 }, at(last), 1);
   const SkeletonGraph graph = builder.Graph();
   const RootBranches  branches(graph);
-  const RootFlow      flow = FlowFrom(branches, { EndAt(graph, { 0, 0, 130 }, at(0)) });
+  const RootFlow      flow = FlowFrom(branches, { { EndAt(graph, { 0, 0, 130 }, at(0)) } });
   ElementIndex        before = EndAt(graph, { 0, 0, 130 }, at(0)).branch;
   EXPECT_EQ(flow.before[before], kNoRoot);
   for (int k = 0; k <= last; ++k)

@@ -300,6 +300,25 @@ TEST(RootHierarchy, SeveralStemsAreTakenAsAskedOrFound)
   EXPECT_EQ(Levels(FindRoots(graph, rules)), Levels(two));
 }
 
+TEST(RootHierarchy, AStemIsWhereItIsSaidToBe)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, 8);
+  builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 8);
+  builder.Line({ 0, 0, 50 }, { 60, 0, 50 }, 2);
+  builder.Line({ 60, 0, 50 }, { 60, 0, 0 }, 2);
+  builder.Line({ 60, 0, 50 }, { 90, 0, 90 }, 2);
+  const SkeletonGraph graph = builder.Graph();
+  RootRules           rules;
+  EXPECT_EQ(TipOf(graph, FindRoots(graph, rules).axes[0])[0], 0);
+  rules.stem = { { 88, 1, 92 } };
+  EXPECT_EQ(graph.positions[FindRoots(graph, rules).axes[0].points.front()], (Spacing3{ 90, 0, 90 }));
+  rules.stem = { { 1, 0, 99 }, { 61, 0, 2 } };
+  const RootHierarchy roots = FindRoots(graph, rules);
+  EXPECT_EQ(graph.positions[roots.axes[0].points.front()], (Spacing3{ 0, 0, 100 }));
+  EXPECT_EQ(TipOf(graph, roots.axes[0]), (Spacing3{ 60, 0, 0 }));
+}
+
 TEST(RootHierarchy, APieceByItselfIsLoose)
 {
   GraphBuilder builder = SmallRoot();
@@ -323,7 +342,9 @@ TEST(RootHierarchy, WhorlsAreLateralsFromOnePlace)
     builder.Line({ 0, 0, z }, { 0, 40, z - 10 }, 1);
   }
   builder.Line({ 0, 0, 48 }, { 0, -40, 40 }, 1);
-  const RootHierarchy roots = FindRoots(builder.Graph());
+  RootRules rules;
+  rules.up = Vector3{ 0, 0, 1 };
+  const RootHierarchy roots = FindRoots(builder.Graph(), rules);
   ASSERT_EQ(roots.whorls.size(), 2U);
   EXPECT_EQ(roots.whorls[0].roots.size(), 3U);
   EXPECT_EQ(roots.whorls[1].roots.size(), 4U);
@@ -337,15 +358,17 @@ TEST(RootHierarchy, ABranchGoesOnByItsTurnAndTwiceItsLikeness)
   for (const double bent : { 1.6, 2.0 })
   {
     GraphBuilder builder;
-    builder.Line({ 0, 0, 100 }, { 0, 0, 60 }, 2);
-    builder.Line({ 0, 0, 60 }, { 0, 0, 0 }, 1.2);
-    builder.Line({ 0, 0, 60 }, { 30 * std::sqrt(3.0), 0, 30 }, bent);
+    builder.Line({ 0, 0, 200 }, { 0, 0, 150 }, 10);
+    builder.Line({ 0, 0, 150 }, { 0, 0, 0 }, 10);
+    builder.Line({ 0, 0, 150 }, { 60, 0, 150 }, 2);
+    builder.Line({ 60, 0, 150 }, { 120, 0, 150 }, 1.2);
+    builder.Line({ 60, 0, 150 }, { 90, 0, 150 - 30 * std::sqrt(3.0) }, bent);
     const SkeletonGraph graph = builder.Graph();
     RootRules           rules;
     rules.up = Vector3{ 0, 0, 1 };
     const RootHierarchy roots = FindRoots(graph, rules);
-    ASSERT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1 }));
-    EXPECT_EQ(TipOf(graph, roots.axes[0])[2], bent > 1.7 ? 30 : 0);
+    ASSERT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 2 }));
+    EXPECT_EQ(TipOf(graph, roots.axes[1])[0], bent > 1.7 ? 90 : 120);
   }
 }
 

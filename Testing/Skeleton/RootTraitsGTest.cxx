@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace voxelcore::testing
 {
@@ -49,6 +50,37 @@ TEST(RootTraits, NumbersOfASmallRootAreThoseOfItsLines)
     EXPECT_NEAR(traits.roots[axis].tortuosity, 1, 1e-12);
     EXPECT_NEAR(traits.roots[axis].chord, traits.roots[axis].length, 1e-9);
   }
+}
+
+// Each millimetre of a skeleton is on a root, or it is said why not.
+TEST(RootTraits, TheLengthOfASkeletonIsThatOfItsRootsAndOfWhatIsLeftOut)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 120 }, { 0, 0, 100 }, 4);
+  builder.Line({ 0, 0, 100 }, { 0, 0, 80 }, 4);
+  builder.Line({ 0, 0, 80 }, { 0, 0, 0 }, 4);
+  builder.Line({ 0, 0, 100 }, { 30, 0, 71 }, 1); // two roots side by side, with a bridge
+  builder.Line({ 30, 0, 71 }, { 60, 0, 41 }, 1);
+  builder.Line({ 0, 0, 80 }, { 30, 0, 69 }, 1);
+  builder.Line({ 30, 0, 69 }, { 60, 0, 58 }, 1);
+  builder.Line({ 30, 0, 71 }, { 30, 0, 69 }, 1);
+  const SkeletonGraph graph = builder.Graph();
+  double              length = 0;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    length += graph.BranchLength(branch);
+  }
+  RootRules rules;
+  rules.up = Vector3{ 0, 0, 1 };
+  RootHierarchy roots = FindRoots(graph, rules);
+  ASSERT_EQ(roots.axes.size(), 3U);
+  const RootBalance balance = MeasureRoots(graph, roots, std::nullopt).balance;
+  EXPECT_NEAR(balance.skeleton, length, 1e-9);
+  EXPECT_NEAR(balance.bridges, 2, 1e-9);
+  EXPECT_NEAR(balance.Missing(), 0, 1e-9);
+  EXPECT_GT(balance.within, 6); // of two laterals, from the stem's axis to its surface
+  roots.leftOut.assign(graph.BranchCount(), LeftOut::No);
+  EXPECT_NEAR(MeasureRoots(graph, roots, std::nullopt).balance.Missing(), 2, 1e-9);
 }
 
 TEST(RootTraits, ASlantingRootHasItsAngles)

@@ -293,10 +293,15 @@ RootEditing::RootEditing(const fs::path & path, const RootRules & rules)
 }
 
 const RootHierarchy &
-RootEditing::operator()(const SkeletonGraph & graph, const RootHierarchy & roots)
+RootEditing::operator()(const SkeletonGraph & graph, const RootHierarchy & roots, const BodyFrame & frame)
 {
+  std::vector<RootAnnotation> inFrame = m_Annotations;
+  for (RootAnnotation & one : inFrame)
+  {
+    one.tip = one.tip ? std::optional(frame.Enter(*one.tip)) : std::nullopt;
+  }
   found = roots;
-  edits = EditsOf(m_Annotations, m_Path, graph, roots);
+  edits = EditsOf(inFrame, m_Path, graph, roots);
   try
   {
     edited = EditRoots(graph, roots, edits, m_Rules);

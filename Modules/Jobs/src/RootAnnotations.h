@@ -2,6 +2,7 @@
 // Notes of a person on each root: written beside the tables, edited in a text editor, a spreadsheet or 3D Slicer, and
 // read back. A root is known by its tip, so that a file holds for other options, too, as long as the root is found.
 
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/RootEdits.h"
 #include "voxelcore/SpatialUnit.h"
 
@@ -41,9 +42,9 @@ public:
   /** `path` may be empty: nothing was said. \throws InputError */
   RootEditing(const std::filesystem::path & path, const RootRules & rules);
 
-  /** \throws InputError */
+  /** Of a graph in a frame of the scan that annotations are of. \throws InputError */
   const RootHierarchy &
-  operator()(const SkeletonGraph & graph, const RootHierarchy & roots);
+  operator()(const SkeletonGraph & graph, const RootHierarchy & roots, const BodyFrame & frame);
 
   RootHierarchy         found;
   std::vector<RootEdit> edits;

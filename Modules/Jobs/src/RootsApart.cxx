@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/Certified.h"
 #include "voxelcore/DepthSimplification.h"
 #include "voxelcore/Error.h"
@@ -99,9 +100,9 @@ private:
   const GreyLevels & m_Levels;
 };
 
-/** The values near the mask; none where there is no grey scan. */
+/** The values near the mask, which is in its frame; none where there is no grey scan. */
 std::optional<BandValues>
-ReadBand(const CoreOptions & core, VoxelShape around, const ProgressCallback & progress)
+ReadBand(const CoreOptions & core, const BodyFrame & frame, VoxelShape around, const ProgressCallback & progress)
 {
   if (!core.reading.threshold || core.resolution || IsMeshFile(core.scan))
   {
@@ -110,9 +111,11 @@ ReadBand(const CoreOptions & core, VoxelShape around, const ProgressCallback & p
   BandValues values(std::move(around));
   VisitGreyRows(
     core.scan,
-    values.Band().Box(),
+    frame.Leave(values.Band().Box()),
     core.reading,
-    [&](std::int32_t y, std::int32_t z, std::span<const float> row) { values.SetRow(y, z, row); },
+    [&](std::int32_t y, std::int32_t z, std::span<const float> row) {
+      values.SetRow(y - frame.Lower()[1], z - frame.Lower()[2], row);
+    },
     progress);
   return values;
 }
@@ -171,19 +174,43 @@ RootsByValues(const ImageGeometry &             geometry,
   return roots;
 }
 
-/** One cut or fill with its voxels as runs. */
+RootRules
+InFrame(RootRules rules, const BodyFrame & frame)
+{
+  frame.Enter(rules.stem);
+  return rules;
+}
+
+/** Back to the scan, with what was found. */
+void
+LeaveFrame(const BodyFrame & frame, SkeletonGraph & graph, RootHierarchy & roots)
+{
+  frame.Leave(graph.positions);
+  frame.Leave(graph.medial);
+  for (RootMeeting & meeting : roots.meetings)
+  {
+    meeting.position = frame.Leave(meeting.position);
+  }
+  for (RootWhorl & whorl : roots.whorls)
+  {
+    whorl.position = frame.Leave(whorl.position);
+  }
+}
+
+/** One cut or fill with its voxels as runs, both in the scan. */
 RootsChange
-ChangeOf(const TopologyChange & change, const ImageGeometry & geometry)
+ChangeOf(const TopologyChange & change, const ImageGeometry & scan, const BodyFrame & frame)
 {
   const auto & at = change.centre;
   RootsChange  one{ { change.isFill,
-                      LatticeToPhysical(geometry, { at[0] + 0.5, at[1] + 0.5, at[2] + 0.5 }),
+                      LatticeToPhysical(scan, frame.LeaveLattice({ at[0] + 0.5, at[1] + 0.5, at[2] + 0.5 })),
                       change.voxels,
                       0,
                       change.difference },
                    {} };
-  for (const auto & voxel : change.where)
+  for (const auto & inFrame : change.where)
   {
+    const auto       voxel = frame.Leave(VoxelBox{ inFrame, { 1, 1, 1 } }).lower;
     VoxelRun * const last = one.runs.empty() ? nullptr : &one.runs.back();
     if (last != nullptr && last->first[1] == voxel[1] && last->first[2] == voxel[2] &&
         last->first[0] + last->length == voxel[0])
@@ -202,9 +229,9 @@ ChangeOf(const TopologyChange & change, const ImageGeometry & geometry)
 
 std::optional<RootsTopology>
 TellRootsApart(LabelShape &             mask,
-               const ImageGeometry &    geometry,
+               const ImageGeometry &    scan,
                const CoreOptions &      core,
-               const RootRules &        rules,
+               const RootRules &        inScan,
                const ApartRequest &     request,
                RootEditing &            editing,
                const ProgressCallback & progress)
@@ -214,17 +241,23 @@ TellRootsApart(LabelShape &             mask,
   {
     return std::nullopt;
   }
-  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, request.scan, core, PartOfProgress(progress, 0, 0.5));
+  const VoxelShape      whole = CropToVoxels(std::move(mask.shape));
+  const BodyFrame       frame(scan, whole.Box());
+  const ImageGeometry & geometry = frame.Geometry();
+  const RootRules       rules = InFrame(inScan, frame);
+  const auto            border = request.scan ? std::optional(frame.Enter(*request.scan)) : std::nullopt;
+  mask.shape = MovedTo({ 0, 0, 0 }, whole);
+  SkeletonGraph     graph = SkeletonOfMask(mask, geometry, border, core, PartOfProgress(progress, 0, 0.5));
   auto              torn = JoinTornRoots(graph, rules);
   const LatticeBall ball = BallOfDepth(request.depth, geometry);
   RootsTopology     topology;
   VoxelShape        kernel(mask.shape.Box());
   VoxelShape        neighbourhood = VoxelsAround(mask.shape, ball);
-  const auto        values = ReadBand(core, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
+  const auto        values = ReadBand(core, frame, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
   RootHierarchy     roots = RootsByValues(geometry, core, values, rules, graph);
   if (numbers.betti[0] == 1)
   {
-    roots = editing(graph, roots);
+    roots = editing(graph, roots, frame);
   }
   const VoxelShape walls = ContactWalls(mask.shape, geometry, graph, roots);
   ChangeCost       inVoxels = DepthCost(mask.shape, ball);
@@ -279,10 +312,9 @@ TellRootsApart(LabelShape &             mask,
     topology.reason = "with all that may be filled, there are " + CountsText(ComputeShapeTopology(neighbourhood)) +
                       (request.kernel ? "; what is never cut has " + CountsText(ComputeShapeTopology(kernel)) : "");
   }
-  topology.changes = ChangesBetween(mask.shape, simplified.shape);
   for (const TopologyChange & change : simplified.changes)
   {
-    RootsChange one = ChangeOf(change, geometry);
+    RootsChange one = ChangeOf(change, scan, frame);
     one.brightest = -std::numeric_limits<double>::infinity();
     one.darkest = std::numeric_limits<double>::infinity();
     for (const auto & at : change.where)
@@ -307,29 +339,41 @@ TellRootsApart(LabelShape &             mask,
   {
     CentreByValues(geometry, core, *values, roots, graph);
   }
+  LeaveFrame(frame, graph, roots);
   topology.graph = std::move(graph);
   topology.roots = std::move(roots);
   topology.torn = std::move(torn);
-  mask.shape = std::move(simplified.shape);
+  mask.shape = MovedTo(frame.Leave(simplified.shape.Box()).lower, simplified.shape);
+  topology.changes = ChangesBetween(whole, mask.shape);
   mask.voxels = mask.shape.CountVoxels();
   return topology;
 }
 
 RootHierarchy
 FindRootsByGrey(const VoxelShape &    mask,
-                const ImageGeometry & geometry,
+                const ImageGeometry & scan,
                 const CoreOptions &   core,
-                const RootRules &     rules,
+                const RootRules &     inScan,
                 const GapWidth &      depth,
                 RootEditing &         editing,
-                SkeletonGraph &       graph)
+                SkeletonGraph &       graph,
+                std::vector<double> & torn)
 {
-  const auto    values = ReadBand(core, VoxelsAround(mask, BallOfDepth(depth, geometry)), {});
-  RootHierarchy roots = editing(graph, RootsByValues(geometry, core, values, rules, graph));
+  const VoxelShape      whole = CropToVoxels(mask);
+  const BodyFrame       frame(scan, whole.Box());
+  const ImageGeometry & geometry = frame.Geometry();
+  const RootRules       rules = InFrame(inScan, frame);
+  frame.Enter(graph.positions);
+  frame.Enter(graph.medial);
+  torn = JoinTornRoots(graph, rules);
+  const VoxelShape body = MovedTo({ 0, 0, 0 }, whole);
+  const auto       values = ReadBand(core, frame, VoxelsAround(body, BallOfDepth(depth, geometry)), {});
+  RootHierarchy    roots = editing(graph, RootsByValues(geometry, core, values, rules, graph), frame);
   if (values)
   {
     CentreByValues(geometry, core, *values, roots, graph);
   }
+  LeaveFrame(frame, graph, roots);
   return roots;
 }
 

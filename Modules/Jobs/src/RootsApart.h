@@ -1,5 +1,6 @@
 #pragma once
-// Roots that touch are told apart and cut apart, so that the mask of a plant is a tree, too.
+// Roots that touch are told apart and cut apart, so that the mask of a plant is a tree, too. All of it is done in the
+// body's own place (BodyFrame.h), so that it does not depend on where in the scan the plant lies.
 
 #include "RootAnnotations.h"
 
@@ -33,9 +34,10 @@ TellRootsApart(LabelShape &             mask,
                RootEditing &            editing,
                const ProgressCallback & progress);
 
-/** The roots of a skeleton. Where `core` reads a grey scan of bright roots, the curves of thin ones are put where the
- *  values say that their middle is (RootCentring.h), and directions are those of such curves. `mask` is the scan's,
- *  `depth` how far from it values are looked at. TellRootsApart() has done so with the graph it gives. */
+/** The roots of a skeleton, joined where it is torn; `torn` are the gaps, in mm. Where `core` reads a grey scan of
+ *  bright roots, the curves of thin ones are put where the values say that their middle is (RootCentring.h), and
+ *  directions are those of such curves. `mask` is the scan's, `depth` how far from it values are looked at.
+ *  TellRootsApart() has done so with the graph it gives. */
 RootHierarchy
 FindRootsByGrey(const VoxelShape &    mask,
                 const ImageGeometry & geometry,
@@ -43,7 +45,8 @@ FindRootsByGrey(const VoxelShape &    mask,
                 const RootRules &     rules,
                 const GapWidth &      depth,
                 RootEditing &         editing,
-                SkeletonGraph &       graph);
+                SkeletonGraph &       graph,
+                std::vector<double> & torn);
 
 /** What was cut and filled, with the voxels, as a file that --change-voxels reads. */
 std::string

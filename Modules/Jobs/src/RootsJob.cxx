@@ -26,6 +26,9 @@ namespace fs = std::filesystem;
 namespace
 {
 
+constexpr double       kTellLeftOut = 0.01; // of the skeleton's length
+constexpr std::int32_t kUsualLevels = 5;
+
 constexpr std::array<const char *, 6> kDirections{ "x+", "x-", "y+", "y-", "z+", "z-" };
 
 /** What is written besides pictures. */
@@ -126,6 +129,56 @@ AddRemarks(RootsResult & result)
   {
     result.notes.push_back(std::to_string(loose) + (loose == 1 ? " piece hangs" : " pieces hang") +
                            " together with no stem; marked as loose");
+  }
+}
+
+/** What the stem and the levels look like: a wrong stem makes all of them wrong. */
+void
+JudgeHierarchy(RootsResult & result)
+{
+  const RootTraits &  traits = result.model.traits;
+  const LengthUnit    unit = LengthUnit::For(traits.depth, result.model.unit);
+  const RootBalance & balance = traits.balance;
+  if (std::abs(balance.Missing()) > 1e-9 * balance.skeleton)
+  {
+    throw CertificateError(unit.Text(balance.Missing()) + " " + unit.Name() + " of the skeleton's " +
+                           unit.Text(balance.skeleton) + " belong to no root, and nothing says why");
+  }
+  const double leftOut = balance.bridges + balance.removed;
+  if (leftOut > kTellLeftOut * balance.skeleton)
+  {
+    result.warnings.push_back(unit.Text(leftOut) + " " + unit.Name() + " of the skeleton's " +
+                              unit.Text(balance.skeleton) + " belong to no root: " + unit.Text(balance.bridges) +
+                              " are bridges between roots that touch, " + unit.Text(balance.removed) +
+                              " were removed by edits");
+  }
+  double lateral = 0;
+  for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)
+  {
+    // What is shorter than the stem is thick is no more than a bulge of it.
+    const RootRecord & root = traits.roots[axis];
+    const bool         counts = result.model.roots.axes[axis].level == 1 && root.length > traits.stemDiameter;
+    lateral = std::max(lateral, counts ? root.meanDiameter : 0.0);
+  }
+  const std::string other = "; if it is not the stem, give a place on it with --stem X,Y,Z";
+  if (traits.stems == 1 && traits.stemLength < 2 * traits.stemDiameter)
+  {
+    result.warnings.push_back("the stem is shorter than twice its diameter" + other);
+  }
+  if (traits.stems == 1 && traits.stemDiameter < lateral)
+  {
+    result.warnings.push_back("the stem is thinner than one of its laterals" + other);
+  }
+  std::int32_t deepest = 0;
+  for (const RootAxis & axis : result.model.roots.axes)
+  {
+    deepest = std::max(deepest, axis.level);
+  }
+  if (deepest > kUsualLevels)
+  {
+    result.notes.push_back("roots have levels up to " + std::to_string(deepest) + ", where plants have up to " +
+                           std::to_string(kUsualLevels) +
+                           "; look where roots touch, or along the stem, and correct them with --edits");
   }
 }
 
@@ -278,8 +331,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   else
   {
     result.model.graph = std::move(skeleton.parts.at(0).graph);
-    torn = JoinTornRoots(result.model.graph, rules);
-    result.model.roots = FindRootsByGrey(mask.shape, geometry, core, rules, depth, editing, result.model.graph);
+    result.model.roots = FindRootsByGrey(mask.shape, geometry, core, rules, depth, editing, result.model.graph, torn);
     if (result.topology)
     {
       RecallContacts(*result.topology, result.model);
@@ -299,6 +351,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
     result.notes.push_back(Counted(editing.edits.size(), "root", "roots") + " edited or named as " +
                            options.annotations.string() + " says");
   }
+  JudgeHierarchy(result);
   AddRemarks(result);
 
   ReportProgress(context.progress, "writing", draws ? 0.75 : 0.95);

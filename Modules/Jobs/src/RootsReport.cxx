@@ -47,6 +47,16 @@ LevelsJson(const GreyLevels & levels)
   return json + (levels.tried.empty() ? "]" : "\n        ]") + "\n      }";
 }
 
+/** Where the length of the skeleton is. */
+std::string
+BalanceJson(const RootBalance & balance)
+{
+  return "{ \"skeleton\": " + JsonNumber(balance.skeleton) + ", \"roots\": " + JsonNumber(balance.roots) +
+         ", \"within_parents\": " + JsonNumber(balance.within) + ", \"shared\": " + JsonNumber(balance.shared) +
+         ", \"bridged\": " + JsonNumber(balance.bridged) + ", \"bridges\": " + JsonNumber(balance.bridges) +
+         ", \"removed\": " + JsonNumber(balance.removed) + " }";
+}
+
 /** What was cut and filled. */
 std::string
 TopologyJson(const RootsTopology & topology)
@@ -83,8 +93,8 @@ RootsJson(const RootModel &                    model,
     ",\n    \"axes\": " + std::to_string(model.roots.axes.size()) +
     ",\n    \"stems\": " + std::to_string(traits.stems) +
     ",\n    \"total_length\": " + JsonNumber(traits.levels.empty() ? 0 : traits.levels.back().totalLength) +
-    ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"plant\": " + PlantJson(model, volume) +
-    ",\n    \"edits\": " + edits + ",\n    \"contacts\": [";
+    ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"balance\": " + BalanceJson(traits.balance) +
+    ",\n    \"plant\": " + PlantJson(model, volume) + ",\n    \"edits\": " + edits + ",\n    \"contacts\": [";
   for (std::size_t i = 0; i < model.roots.meetings.size(); ++i)
   {
     const RootMeeting & meeting = model.roots.meetings[i];
@@ -129,8 +139,11 @@ RootsText(const RootsResult & result)
   }
   return FormatTable(rows) + std::to_string(traits.contacts) + (traits.contacts == 1 ? " contact" : " contacts") +
          " of roots, " + std::to_string(traits.undecidedContacts) + " undecided; " + std::to_string(traits.whorls) +
-         (traits.whorls == 1 ? " whorl" : " whorls") + "; depth " + unit.Text(traits.depth) + " " + unit.Name() +
-         ", width " + unit.Text(traits.width) + " " + unit.Name() + "\n";
+         (traits.whorls == 1 ? " whorl" : " whorls") + "; of the skeleton's " + unit.Text(traits.balance.skeleton) +
+         " " + unit.Name() + " " + unit.Text(traits.balance.roots) + " on roots, " + unit.Text(traits.balance.within) +
+         " within their parents, " + unit.Text(traits.balance.bridges + traits.balance.removed) + " left out" +
+         "; depth " + unit.Text(traits.depth) + " " + unit.Name() + ", width " + unit.Text(traits.width) + " " +
+         unit.Name() + "\n";
 }
 
 } // namespace voxelcore

@@ -6,8 +6,40 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
 
+#include <array>
+#include <cstdlib>
+#include <sstream>
+#include <vector>
+
 namespace voxelcore
 {
+
+namespace
+{
+
+/** "X,Y,Z;X,Y,Z" */
+std::vector<std::array<double, 3>>
+PlacesFrom(const std::string & text)
+{
+  std::vector<std::array<double, 3>> places;
+  std::istringstream                 all(text);
+  for (std::string one; std::getline(all, one, ';');)
+  {
+    std::istringstream    numbers(one);
+    std::array<double, 3> place{};
+    char                  between[2]{};
+    char                  rest = 0;
+    if (!(numbers >> place[0] >> between[0] >> place[1] >> between[1] >> place[2]) || between[0] != ',' ||
+        between[1] != ',' || numbers >> rest)
+    {
+      throw UsageError("--stem " + text + ": expected places as X,Y,Z, several with ';' between them");
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+} // namespace
 
 RootsOptions
 RootsOptionsFrom(const ParameterValues & values)
@@ -30,6 +62,11 @@ RootsOptionsFrom(const ParameterValues & values)
   options.stage.lambda.text = "0";
   options.rules.up = ParseUp(reader.Text("up"));
   options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));
+  options.rules.stem = PlacesFrom(reader.Text("stem"));
+  if (!options.rules.stem.empty() && options.rules.stems != 1)
+  {
+    throw UsageError("--stem gives the only stem; leave out --stems");
+  }
   options.annotations = reader.FileIfGiven("edits").value_or("");
   options.soilDepth = reader.Real("soil-depth");
   options.prefix = reader.Text("prefix");

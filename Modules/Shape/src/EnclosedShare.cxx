@@ -46,11 +46,16 @@ WithinAStep(const VoxelShape & region, std::int32_t y, std::int32_t z, BitRow & 
 } // namespace
 
 VoxelShape
-EnclosedShare(VoxelShape between, VoxelShape enclosed, VoxelShape outside, const ProgressCallback & progress)
+EnclosedShare(VoxelShape               between,
+              VoxelShape               enclosed,
+              VoxelShape               outside,
+              const ProgressCallback & progress,
+              const ClosedSides &      closed)
 {
   const auto & size = between.Box().size;
   const auto   isRim = [&](std::int32_t y, std::int32_t z) {
-    return y == 0 || z == 0 || y + 1 == size[1] || z + 1 == size[2];
+    return (y == 0 && !closed[1][0]) || (z == 0 && !closed[2][0]) || (y + 1 == size[1] && !closed[1][1]) ||
+           (z + 1 == size[2] && !closed[2][1]);
   };
   bool isFirst = true; // later steps find the rim of the box taken
   for (bool wentOn = true; wentOn; isFirst = false)
@@ -79,8 +84,8 @@ EnclosedShare(VoxelShape between, VoxelShape enclosed, VoxelShape outside, const
           WithinAStep(enclosed, y, z, in, spare);
           if (isFirst)
           {
-            out.front() |= 1;
-            out.back() |= std::uint64_t{ 1 } << (static_cast<unsigned>(size[0] - 1) & 63U);
+            out.front() |= closed[0][0] ? 0 : 1;
+            out.back() |= closed[0][1] ? 0 : std::uint64_t{ 1 } << (static_cast<unsigned>(size[0] - 1) & 63U);
           }
           for (std::size_t word = 0; word < row.size(); ++word)
           {

@@ -199,7 +199,8 @@ EditShape(VoxelShape &             shape,
   const ProgressCallback hollows = plan.Next();
   if (options.fillHollows)
   {
-    record.hollows = takeFilled(FillHollows(give(), BallOfDiameter(*options.fillHollows, geometry), hollows));
+    record.hollows =
+      takeFilled(FillHollows(give(), BallOfDiameter(*options.fillHollows, geometry), hollows, geometry.size));
   }
   const ProgressCallback slices = plan.Next();
   if (options.fillSlices)

@@ -1,6 +1,7 @@
 #include "ContactPairing.h"
 
 #include "ContactMatching.h"
+#include "RootNumbers.h"
 
 #include "voxelcore/UnionFind.h"
 
@@ -15,19 +16,15 @@ namespace voxelcore
 namespace
 {
 
-constexpr double kLeastBackwards = 0.3; // value of a pair across a stretch run through in opposite directions
-constexpr double kOfLength = 0.25;      // of the longest way beyond, where thickness says nothing
-
 class Pairer
 {
 public:
-  Pairer(const RootBranches & branches, const RootFlow & flow, const RootRules & rules, bool isTurned)
+  Pairer(const RootBranches & branches, const RootFlow & flow, const RootRules & rules)
     : m_Branches(branches)
     , m_Flow(flow)
     , m_Rules(rules)
-    , m_IsTurned(isTurned)
     , m_Clusters(branches.HubCount())
-    , m_Beyond(LengthsBeyond(branches, flow))
+    , m_Beyond(FindWhatFollows(branches, flow))
   {
     const std::size_t count = branches.Graph().BranchCount();
     m_Pairing.next.assign(count, kNoRoot);
@@ -59,7 +56,7 @@ public:
     {
       const ElementIndex a = m_Branches.HubOf({ branch, 0 });
       const ElementIndex b = m_Branches.HubOf({ branch, 1 });
-      m_Pairing.inside[branch] = a != b && m_Clusters.Find(a) == m_Clusters.Find(b);
+      m_Pairing.inside[branch] = a != b && m_Clusters.Find(a) == m_Clusters.Find(b) && !m_Flow.isStem[branch];
     }
     for (const auto & hubs : members)
     {
@@ -86,7 +83,7 @@ private:
     for (const BranchEnd & end : arrivals)
     {
       const ElementIndex other = m_Branches.HubOf(end.Other());
-      if (other == hub || !m_Branches.IsJunction(other) || m_Flow.arrivals[other].empty())
+      if (other == hub || m_Flow.isStem[end.branch] || !m_Branches.IsJunction(other) || m_Flow.arrivals[other].empty())
       {
         continue;
       }
@@ -129,49 +126,10 @@ private:
     for (const BranchEnd & end : leaving)
     {
       const ElementIndex other = m_Branches.HubOf(end.Other());
-      if (other != hub && m_Branches.IsJunction(other) &&
+      if (other != hub && !m_Flow.isStem[end.branch] && m_Branches.IsJunction(other) &&
           m_Branches.LengthOf(end.branch) <= m_Rules.sharedLength * sum * 2 / static_cast<double>(arrivals.size()))
       {
         m_Clusters.Unite(hub, other);
-      }
-    }
-    if (m_IsTurned)
-    {
-      GatherBackwards(hub, leaving);
-    }
-  }
-
-  /** Two roots may share a stretch that they run through in opposite directions: what arrives here goes on from where
-   *  the stretch begins. */
-  void
-  GatherBackwards(ElementIndex hub, const std::vector<BranchEnd> & leavingHere)
-  {
-    const auto & arrivals = m_Flow.arrivals[hub];
-    for (const BranchEnd & shared : arrivals)
-    {
-      const ElementIndex other = m_Branches.HubOf(shared.Other());
-      for (const BranchEnd & end : arrivals)
-      {
-        const double thick = m_Branches.Radius(shared.branch);
-        const double thin = m_Branches.Radius(end.branch);
-        if (end.branch == shared.branch || other == hub || thin < kThinBeside * thick ||
-            m_Branches.LengthOf(shared.branch) > m_Rules.sharedLength * (thick + thin))
-        {
-          continue;
-        }
-        double best = kLeastBackwards;
-        for (const BranchEnd & next : leavingHere)
-        {
-          best = std::max(best, m_Branches.PairValue(end, next));
-        }
-        for (const BranchEnd & next : m_Branches.EndsAt(other))
-        {
-          if (next.branch != shared.branch && m_Flow.base[next.branch] == next.last &&
-              m_Branches.PairValue(end, next) > best)
-          {
-            m_Clusters.Unite(hub, other);
-          }
-        }
       }
     }
   }
@@ -210,7 +168,14 @@ private:
     });
     if (arriving.empty())
     {
-      return; // where a stem begins
+      // Where a stem begins: the others spring from it.
+      const auto stem =
+        std::ranges::find_if(leaving, [&](const BranchEnd & end) { return m_Flow.before[end.branch] == kNoRoot; });
+      for (auto end = leaving.begin(); stem != leaving.end() && end != leaving.end(); ++end)
+      {
+        m_Pairing.parent[end->branch] = end != stem ? stem->branch : kNoRoot;
+      }
+      return;
     }
     if (arriving.size() == 1)
     {
@@ -222,7 +187,12 @@ private:
     {
       for (std::size_t k = 0; k < leaving.size(); ++k)
       {
-        if (!IsBefore(leaving[k].branch, arriving[i].branch))
+        const ElementIndex next = m_Flow.stemNext[arriving[i].branch];
+        if (m_Flow.isStem[arriving[i].branch] || m_Flow.isStem[leaving[k].branch])
+        {
+          values[i][k] = next == leaving[k].branch ? kOfStem : kNoPair;
+        }
+        else if (!IsBefore(leaving[k].branch, arriving[i].branch))
         {
           // Thin roots to both sides of a thick one rather spring from it.
           const double thick = m_Branches.Radius(arriving.front().branch);
@@ -296,7 +266,7 @@ private:
     std::vector<double> radii{ 0 };
     for (const BranchEnd & end : leaving)
     {
-      farthest = std::max(farthest, m_Beyond[end.branch]);
+      farthest = std::max(farthest, m_Beyond[end.branch].length);
       radii.push_back(m_Branches.Radius(end.branch));
     }
     std::ranges::sort(radii, std::ranges::greater{});
@@ -306,10 +276,13 @@ private:
     double       best = -std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < leaving.size(); ++k)
     {
-      const double value = m_Branches.Onward(from, leaving[k]) + ofLength * m_Beyond[leaving[k].branch];
-      if (value > best)
+      const WhatFollows & beyond = m_Beyond[leaving[k].branch];
+      const double        value =
+        m_Branches.Onward(from, leaving[k]) + kOfJunctions * beyond.junctions + ofLength * beyond.length;
+      const bool isNext = m_Flow.stemNext[from.branch] == leaving[k].branch;
+      if (isNext || (!m_Flow.isStem[from.branch] && value > best))
       {
-        best = value;
+        best = isNext ? std::numeric_limits<double>::infinity() : value;
         heir = k;
       }
     }
@@ -381,21 +354,20 @@ private:
     std::reverse(way.begin(), way.end());
   }
 
-  const RootBranches & m_Branches;
-  const RootFlow &     m_Flow;
-  const RootRules &    m_Rules;
-  bool                 m_IsTurned;
-  UnionFind            m_Clusters; ///< hubs of one contact
-  std::vector<double>  m_Beyond;   ///< per branch
-  RootPairing          m_Pairing;
+  const RootBranches &     m_Branches;
+  const RootFlow &         m_Flow;
+  const RootRules &        m_Rules;
+  UnionFind                m_Clusters; ///< hubs of one contact
+  std::vector<WhatFollows> m_Beyond;   ///< per branch
+  RootPairing              m_Pairing;
 };
 
 } // namespace
 
 RootPairing
-PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules, bool isTurned)
+PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules)
 {
-  return Pairer(branches, flow, rules, isTurned).Pair();
+  return Pairer(branches, flow, rules).Pair();
 }
 
 } // namespace voxelcore

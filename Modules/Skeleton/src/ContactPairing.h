@@ -6,10 +6,6 @@
 namespace voxelcore
 {
 
-// Thin roots to both sides of a thick one rather spring from it than pass it: a pair of such is worth less.
-constexpr double kThinBeside = 0.6; // of the thick one's radius
-constexpr double kOfPassing = 0.6;
-
 /** How branches follow each other. */
 struct RootPairing
 {
@@ -23,9 +19,7 @@ struct RootPairing
   std::vector<RootMeeting>               meetings;
 };
 
-/** `isTurned`: roots that were run through backwards are turned (RootTurning.h), and may go on over a stretch that
- *  another runs through in the opposite direction. */
 RootPairing
-PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules, bool isTurned);
+PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules);
 
 } // namespace voxelcore

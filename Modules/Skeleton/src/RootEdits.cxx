@@ -1,5 +1,6 @@
 #include "voxelcore/RootEdits.h"
 
+#include "RootSteps.h"
 #include "RootWhorls.h"
 
 #include "voxelcore/BranchTable.h"
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -252,24 +252,15 @@ private:
   void
   FindOwners()
   {
-    std::map<std::pair<ElementIndex, ElementIndex>, ElementIndex> owner;
-    for (ElementIndex i = 0; i < m_Axes.size(); ++i)
-    {
-      const auto & points = m_Axes[i].points;
-      for (std::size_t k = 1; k < points.size(); ++k)
-      {
-        owner.try_emplace(std::minmax(points[k - 1], points[k]), i);
-      }
-    }
+    const RootSteps steps(m_Edited.roots);
+    m_Edited.roots.leftOut.resize(m_Edited.roots.rootOf.size(), LeftOut::No);
     for (std::size_t branch = 0; branch < m_Edited.roots.rootOf.size(); ++branch)
     {
-      ElementIndex & root = m_Edited.roots.rootOf[branch];
-      if (root != kNoRoot)
-      {
-        const auto points = m_Graph.Branch(branch);
-        const auto found = owner.find(std::minmax(points[points.size() / 2 - 1], points[points.size() / 2]));
-        root = found == owner.end() ? kNoRoot : found->second;
-      }
+      ElementIndex &     root = m_Edited.roots.rootOf[branch];
+      LeftOut &          why = m_Edited.roots.leftOut[branch];
+      const ElementIndex owner = steps.OwnerOf(m_Graph.Branch(branch));
+      root = root != kNoRoot ? owner : kNoRoot;
+      why = owner == kNoRoot && why == LeftOut::No ? LeftOut::Removed : why;
     }
   }
 

@@ -1,5 +1,8 @@
 #include "RootFlow.h"
 
+#include "RootNumbers.h"
+#include "UnitVector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,42 +16,6 @@ namespace
 {
 
 constexpr std::size_t kMostPieces = 4;
-
-Vector3
-UnitVector(const Vector3 & a)
-{
-  const double length = Length(a);
-  return length > 0 ? Vector3{ a[0] / length, a[1] / length, a[2] / length } : Vector3{ 0, 0, 0 };
-}
-
-/** Mean radius along the way from a tip inwards, at each junction on by the thickest branch, for `length` mm. */
-double
-ThicknessFrom(const RootBranches & branches, BranchEnd end, double length)
-{
-  std::vector<std::uint8_t> taken(branches.Graph().BranchCount(), 0);
-  double                    sum = 0;
-  double                    way = 0;
-  for (;;)
-  {
-    taken[end.branch] = 1;
-    const double step = std::min(branches.LengthOf(end.branch), length - way);
-    sum += step * branches.Radius(end.branch);
-    way += step;
-    std::optional<BranchEnd> next;
-    for (const BranchEnd & other : branches.EndsAt(branches.HubOf(end.Other())))
-    {
-      if (!taken[other.branch] && (!next || branches.Radius(other.branch) > branches.Radius(next->branch)))
-      {
-        next = other;
-      }
-    }
-    if (!next || way >= length)
-    {
-      return way > 0 ? sum / way : branches.Radius(end.branch);
-    }
-    end = *next;
-  }
-}
 
 } // namespace
 
@@ -81,7 +48,7 @@ RootBranches::RootBranches(const SkeletonGraph & graph)
       {
         const ElementIndex end = last ? points.back() : points.front();
         outside = outside && (!IsJunction(HubOf({ branch, last })) ||
-                              Distance(graph.positions[point], graph.positions[end]) > 1.2 * balls[last]);
+                              Distance(graph.positions[point], graph.positions[end]) > kOutsideBall * balls[last]);
       }
       // Of a short stretch between laterals the cross-section may be shared out wrongly; the ball lies within it.
       sums[outside] += std::max(radii[point], graph.radius[point]);
@@ -96,7 +63,7 @@ Vector3
 RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
 {
   const Vector3 & start = m_Graph.positions[PointFrom(end, 0)];
-  const double    near = IsJunction(HubOf(end)) ? 1.2 * BallAt(end) + skip : 0;
+  const double    near = IsJunction(HubOf(end)) ? kOutsideBall * BallAt(end) + skip : 0;
   // A junction of many branches may come as several, a short piece apart within the ball: the piece leads where the
   // thickest branch does that leaves its other end.
   std::vector<BranchEnd> pieces{ end };
@@ -131,7 +98,7 @@ RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
     }
   }
   const double radius = m_Radius[pieces.back().branch];
-  const double far = near + 5 * radius;
+  const double far = near + kDirectionReach * radius;
   std::size_t  first = 0;
   std::size_t  last = 1;
   for (std::size_t i = 1; i < points.size(); ++i)
@@ -147,7 +114,7 @@ RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
   const Vector3 & to = m_Graph.positions[points[last]];
   // Too short to have much outside: from the end itself.
   const Vector3 & from = m_Graph.positions[points[first]];
-  return UnitVector(Distance(from, to) < 2 * radius ? Minus(to, start) : Minus(to, from));
+  return Unit(Distance(from, to) < kLeastDirection * radius ? Minus(to, start) : Minus(to, from));
 }
 
 double
@@ -161,7 +128,7 @@ double
 RootBranches::Onward(const BranchEnd & arrives, const BranchEnd & leaves) const
 {
   const double ratio = std::min(1.0, m_Radius[leaves.branch] / std::max(1e-300, m_Radius[arrives.branch]));
-  return Straightness(arrives, leaves) + 2 * ratio;
+  return Straightness(arrives, leaves) + kOfLikeness * ratio;
 }
 
 double
@@ -170,191 +137,174 @@ RootBranches::PairValue(const BranchEnd & arrives, const BranchEnd & leaves) con
   return Straightness(arrives, leaves) + Likeness(arrives.branch, leaves.branch) - 1;
 }
 
-std::vector<BranchEnd>
-FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int stems)
+namespace
 {
-  struct Candidate
+
+/** Spreads from the stems over the branches, always by the cheapest way. */
+class FlowSpread
+{
+public:
+  explicit FlowSpread(const RootBranches & branches)
+    : m_Branches(branches)
+    , m_Count(branches.Graph().BranchCount())
+    , m_Settled(m_Count, 0)
   {
-    BranchEnd end;
-    double    radius = 0;
-    double    height = 0;
-  };
-  std::vector<Candidate> tips;
-  Vector3                least{ 1e300, 1e300, 1e300 };
-  Vector3                most{ -1e300, -1e300, -1e300 };
-  for (const ElementIndex point : branches.Graph().branchPoints)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    m_Flow.base.assign(m_Count, 0);
+    m_Flow.before.assign(m_Count, kNoRoot);
+    m_Flow.stemNext.assign(m_Count, kNoRoot);
+    m_Flow.isStem.assign(m_Count, 0);
+    m_Flow.arrivals.resize(branches.HubCount());
+    double total = 0;
+    for (ElementIndex branch = 0; branch < m_Count; ++branch)
     {
-      least[axis] = std::min(least[axis], branches.Graph().positions[point][axis]);
-      most[axis] = std::max(most[axis], branches.Graph().positions[point][axis]);
+      total += branches.LengthOf(branch);
+      m_Radius += branches.LengthOf(branch) * branches.Radius(branch);
+    }
+    m_Radius = total > 0 && m_Radius > 0 ? m_Radius / total : 1;
+  }
+
+  RootFlow
+  From(const std::vector<StemWay> & stems)
+  {
+    for (const StemWay & stem : stems)
+    {
+      m_Flow.sources.push_back(stem.front());
+      m_Flow.loose.push_back(0);
+      for (std::size_t i = 0; i < stem.size(); ++i)
+      {
+        Settle(stem[i].branch, stem[i].last, i > 0 ? stem[i - 1].branch : kNoRoot);
+        m_Flow.isStem[stem[i].branch] = 1;
+        m_Flow.stemNext[stem[i].branch] = i + 1 < stem.size() ? stem[i + 1].branch : kNoRoot;
+      }
+    }
+    for (const StemWay & stem : stems)
+    {
+      for (const BranchEnd & end : stem)
+      {
+        SpreadBeyond(end.Other(), 0, false);
+      }
+      SpreadBeyond(stem.front(), 0, false);
+    }
+    Spread();
+    // Pieces without a stem: from their thickest tip, or where there is none from any branch.
+    while (const auto source = LooseSource())
+    {
+      m_Flow.sources.push_back(*source);
+      m_Flow.loose.push_back(1);
+      m_Queue.emplace(0.0, source->branch, source->last, kNoRoot, false);
+      Spread();
+    }
+    return std::move(m_Flow);
+  }
+
+private:
+  void
+  Settle(ElementIndex branch, std::uint8_t base, ElementIndex before)
+  {
+    m_Settled[branch] = 1;
+    m_Flow.base[branch] = base;
+    m_Flow.before[branch] = before;
+    const BranchEnd far = BranchEnd{ branch, base }.Other();
+    m_Flow.arrivals[m_Branches.HubOf(far)].push_back(far);
+  }
+
+  void
+  Spread()
+  {
+    while (!m_Queue.empty())
+    {
+      const auto [cost, branch, base, before, springs] = m_Queue.top();
+      m_Queue.pop();
+      if (!m_Settled[branch])
+      {
+        Settle(branch, base, before);
+        // A piece within the root it springs from: what springs there springs from that root.
+        const bool isStub = springs && m_Branches.LengthOf(branch) < m_Branches.BallAt({ branch, base });
+        SpreadBeyond(BranchEnd{ branch, base }.Other(), cost, isStub);
+      }
     }
   }
-  double thickest = 0;
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -lowest;
-  for (ElementIndex hub = 0; hub < branches.HubCount(); ++hub)
+
+  void
+  SpreadBeyond(const BranchEnd & far, double cost, bool isStub)
   {
-    if (branches.EndsAt(hub).size() != 1)
+    // Which of them it goes on as; the others spring from it, all of them from a stem.
+    ElementIndex heir = kNoRoot;
+    double       best = -std::numeric_limits<double>::infinity();
+    for (const BranchEnd & next : m_Branches.EndsAt(m_Branches.HubOf(far)))
     {
-      continue;
+      const double value = m_Branches.Onward(far, next);
+      if (!m_Settled[next.branch] && !m_Flow.isStem[far.branch] && value > best)
+      {
+        best = value;
+        heir = next.branch;
+      }
     }
-    const BranchEnd end = branches.EndsAt(hub).front();
-    const Vector3 & place = branches.Graph().positions[branches.PointFrom(end, 0)];
-    tips.push_back({ end, ThicknessFrom(branches, end, 0.1 * Distance(least, most)), up ? Dot(place, *up) : 0 });
-    thickest = std::max(thickest, tips.back().radius);
-    lowest = std::min(lowest, tips.back().height);
-    highest = std::max(highest, tips.back().height);
-  }
-  const double range = highest > lowest ? highest - lowest : 1;
-  const auto   value = [&](const Candidate & tip) { return tip.radius / thickest + (tip.height - lowest) / range; };
-  std::stable_sort(tips.begin(), tips.end(), [&](const Candidate & a, const Candidate & b) {
-    return value(a) > value(b);
-  });
-  std::vector<BranchEnd> found;
-  for (const Candidate & tip : tips)
-  {
-    const bool isStem = stems > 0 ? static_cast<int>(found.size()) < stems
-                                  : found.empty() || (tip.radius >= 0.6 * tips.front().radius &&
-                                                      (!up || (tip.height - lowest) / range >= 0.75));
-    if (isStem)
+    for (const BranchEnd & next : m_Branches.EndsAt(m_Branches.HubOf(far)))
     {
-      found.push_back(tip.end);
-    }
-  }
-  return found;
-}
-
-Vector3
-FindUp(const RootBranches & branches, const BranchEnd & stem)
-{
-  const SkeletonGraph & graph = branches.Graph();
-  Vector3               centre{};
-  for (const ElementIndex point : graph.branchPoints)
-  {
-    centre = AddScaled(centre, 1.0 / static_cast<double>(graph.branchPoints.size()), graph.positions[point]);
-  }
-  const Vector3 away = Minus(graph.positions[branches.PointFrom(stem, 0)], centre);
-  std::size_t   axis = 2;
-  for (const std::size_t other : { std::size_t{ 1 }, std::size_t{ 0 } })
-  {
-    axis = std::abs(away[other]) > std::abs(away[axis]) ? other : axis;
-  }
-  Vector3 up{};
-  up[axis] = away[axis] < 0 ? -1 : 1;
-  return up;
-}
-
-RootFlow
-FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems)
-{
-  const std::size_t count = branches.Graph().BranchCount();
-  RootFlow          flow;
-  flow.base.assign(count, 0);
-  flow.before.assign(count, kNoRoot);
-  flow.arrivals.resize(branches.HubCount());
-  double total = 0;
-  for (ElementIndex branch = 0; branch < count; ++branch)
-  {
-    total += branches.LengthOf(branch);
-  }
-  std::vector<std::uint8_t> settled(count, 0);
-
-  // Cost, branch, its base, from where, whether it springs there.
-  using Entry = std::tuple<double, ElementIndex, std::uint8_t, ElementIndex, bool>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  const auto                                                     spread = [&] {
-    while (!queue.empty())
-    {
-      const auto [cost, branch, base, before, springs] = queue.top();
-      queue.pop();
-      if (settled[branch])
+      if (m_Settled[next.branch])
       {
         continue;
       }
-      settled[branch] = 1;
-      flow.base[branch] = base;
-      flow.before[branch] = before;
-      const BranchEnd far = BranchEnd{ branch, base }.Other();
-      flow.arrivals[branches.HubOf(far)].push_back(far);
-      // A piece within the root it springs from: what springs there springs from that root.
-      const bool isStub = springs && branches.LengthOf(branch) < branches.BallAt({ branch, base });
-      // Which of them it goes on as; the others spring from it.
-      ElementIndex heir = kNoRoot;
-      double       best = -std::numeric_limits<double>::infinity();
-      for (const BranchEnd & next : branches.EndsAt(branches.HubOf(far)))
-      {
-        const double value = branches.Onward(far, next);
-        if (!settled[next.branch] && value > best)
-        {
-          best = value;
-          heir = next.branch;
-        }
-      }
-      for (const BranchEnd & next : branches.EndsAt(branches.HubOf(far)))
-      {
-        if (settled[next.branch])
-        {
-          continue;
-        }
-        const double turn = 0.5 * (1 - branches.Straightness(far, next));
-        const double thinning = 1 - branches.Likeness(branch, next.branch);
-        const bool   thickens = branches.Radius(next.branch) > 1.5 * branches.Radius(branch);
-        const double crooked = std::min(1.0, turn + 0.5 * thinning);
-        const bool   springsNext = next.branch != heir && !isStub;
-        const double step = (springsNext ? 1 : crooked * crooked) + (thickens ? 1 : 0);
-        queue.emplace(cost + step + 0.5 * branches.LengthOf(next.branch) / total,
+      const double turn = 0.5 * (1 - m_Branches.Straightness(far, next));
+      const double thinning = 1 - m_Branches.Likeness(far.branch, next.branch);
+      const double crooked = std::min(1.0, turn + kThinningCost * thinning);
+      const bool   springs = next.branch != heir && !isStub;
+      m_Queue.emplace(cost + crooked * crooked + (springs ? kSpringCost : 0) +
+                        kLengthCost * m_Branches.LengthOf(next.branch) / m_Radius,
                       next.branch,
                       next.last,
-                      branch,
-                      springsNext);
-      }
+                      far.branch,
+                      springs);
     }
-  };
-  const auto start = [&](const BranchEnd & end, bool isLoose) {
-    flow.sources.push_back(end);
-    flow.loose.push_back(isLoose);
-    queue.emplace(0.0, end.branch, end.last, kNoRoot, false);
-  };
-  for (const BranchEnd & stem : stems)
-  {
-    start(stem, false);
   }
-  spread();
-  // Pieces without a stem: from their thickest tip, or where there is none from any branch.
-  for (;;)
+
+  std::optional<BranchEnd>
+  LooseSource() const
   {
     std::optional<BranchEnd> best;
     bool                     bestIsTip = false;
-    for (ElementIndex branch = 0; branch < count; ++branch)
+    for (ElementIndex branch = 0; branch < m_Count; ++branch)
     {
       for (const std::uint8_t last : { std::uint8_t{ 0 }, std::uint8_t{ 1 } })
       {
         const BranchEnd end{ branch, last };
-        const bool      isTip = branches.EndsAt(branches.HubOf(end)).size() == 1;
-        if (!settled[branch] &&
-            (!best || std::pair(isTip, branches.Radius(branch)) > std::pair(bestIsTip, branches.Radius(best->branch))))
+        const bool      isTip = m_Branches.EndsAt(m_Branches.HubOf(end)).size() == 1;
+        if (!m_Settled[branch] && (!best || std::pair(isTip, m_Branches.Radius(branch)) >
+                                              std::pair(bestIsTip, m_Branches.Radius(best->branch))))
         {
           best = end;
           bestIsTip = isTip;
         }
       }
     }
-    if (!best)
-    {
-      break;
-    }
-    start(*best, true);
-    spread();
+    return best;
   }
-  return flow;
+
+  // Cost, branch, its base, from where, whether it springs there.
+  using Entry = std::tuple<double, ElementIndex, std::uint8_t, ElementIndex, bool>;
+
+  const RootBranches &                                           m_Branches;
+  std::size_t                                                    m_Count;
+  double                                                         m_Radius = 0; ///< mean, by length
+  std::vector<std::uint8_t>                                      m_Settled;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> m_Queue;
+  RootFlow                                                       m_Flow;
+};
+
+} // namespace
+
+RootFlow
+FlowFrom(const RootBranches & branches, const std::vector<StemWay> & stems)
+{
+  return FlowSpread(branches).From(stems);
 }
 
-std::vector<double>
-LengthsBeyond(const RootBranches & branches, const RootFlow & flow)
+std::vector<WhatFollows>
+FindWhatFollows(const RootBranches & branches, const RootFlow & flow)
 {
   const std::size_t        count = flow.before.size();
-  std::vector<double>      beyond(count, 0);
+  std::vector<WhatFollows> beyond(count);
   std::vector<std::size_t> open(count, 0); // branches that follow and are not done
   for (const ElementIndex before : flow.before)
   {
@@ -368,12 +318,14 @@ LengthsBeyond(const RootBranches & branches, const RootFlow & flow)
     // From where nothing follows back to where something still has to be done.
     for (ElementIndex branch = tip; branch != kNoRoot && open[branch] == 0; branch = flow.before[branch])
     {
-      beyond[branch] += branches.LengthOf(branch);
+      beyond[branch].length += branches.LengthOf(branch);
+      beyond[branch].junctions += branches.IsJunction(branches.HubOf(flow.Base(branch).Other())) ? 1 : 0;
       open[branch] = count; // done
       const ElementIndex before = flow.before[branch];
       if (before != kNoRoot)
       {
-        beyond[before] = std::max(beyond[before], beyond[branch]);
+        beyond[before].length = std::max(beyond[before].length, beyond[branch].length);
+        beyond[before].junctions = std::max(beyond[before].junctions, beyond[branch].junctions);
         --open[before];
       }
     }

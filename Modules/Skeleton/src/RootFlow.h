@@ -88,7 +88,7 @@ public:
   {
     return -Dot(DirectionFrom(arrives), DirectionFrom(leaves));
   }
-  /** How well a branch that arrives goes on as one that leaves: cos(turn) + 2 (thinner / thicker). */
+  /** How well a branch that arrives goes on as one that leaves: cos(turn) + kOfLikeness (thinner / thicker). */
   double
   Onward(const BranchEnd & arrives, const BranchEnd & leaves) const;
   /** How well they go with each other in a contact: cos(turn) + (thinner / thicker) - 1. */
@@ -113,6 +113,8 @@ struct RootFlow
   std::vector<std::uint8_t>           loose;    ///< per source
   std::vector<std::uint8_t>           base;     ///< per branch: which end is nearer to the stem
   std::vector<ElementIndex>           before;   ///< per branch: the one the way comes from; kNoRoot at a source
+  std::vector<ElementIndex>           stemNext; ///< per branch of a stem the next one of it; kNoRoot for others
+  std::vector<std::uint8_t>           isStem;   ///< per branch
   std::vector<std::vector<BranchEnd>> arrivals; ///< per hub the ends of branches that arrive, the cheapest first
 
   BranchEnd
@@ -122,20 +124,22 @@ struct RootFlow
   }
 };
 
-/** The tips that stems begin at, the first the main one; with `up` where it is known. */
-std::vector<BranchEnd>
-FindStems(const RootBranches & branches, const std::optional<Vector3> & up, int stems);
+/** The branches of a stem, each seen from the end nearer to its base. */
+using StemWay = std::vector<BranchEnd>;
 
-/** The coordinate axis, or its opposite, that points most from the centre of the skeleton to the base of the stem. */
-Vector3
-FindUp(const RootBranches & branches, const BranchEnd & stem);
-
-/** Going on costs little, the less it turns and thins; springing from a side costs 1, wherever along a root it is. */
+/** Along the stems, and from them on by the cheapest way: turning and thinning cost, so does springing from a side, and
+ *  a little does length, so that where roots touch neither is run through backwards. */
 RootFlow
-FlowFrom(const RootBranches & branches, const std::vector<BranchEnd> & stems);
+FlowFrom(const RootBranches & branches, const std::vector<StemWay> & stems);
 
-/** Per branch the length of the longest way from its base on, in mm. */
-std::vector<double>
-LengthsBeyond(const RootBranches & branches, const RootFlow & flow);
+/** What lies beyond the base of a branch. */
+struct WhatFollows
+{
+  double length = 0;    ///< mm, of the longest way
+  double junctions = 0; ///< of the way with most
+};
+
+std::vector<WhatFollows>
+FindWhatFollows(const RootBranches & branches, const RootFlow & flow);
 
 } // namespace voxelcore

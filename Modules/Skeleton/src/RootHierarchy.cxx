@@ -1,17 +1,19 @@
 #include "voxelcore/RootHierarchy.h"
 
-#include "RootTurning.h"
+#include "ContactPairing.h"
+#include "RootNumbers.h"
+#include "RootStem.h"
+#include "RootSteps.h"
 #include "RootWhorls.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace voxelcore
 {
 
 namespace
 {
-
-constexpr int kMostTurns = 8;
 
 /** Puts branches together to axes. */
 class AxisBuilder
@@ -45,29 +47,52 @@ public:
       }
     }
     Grow(0);
-    // Where pairs of contacts bite their own tails a branch may be left: it is a lateral of what the way came from.
-    for (;;)
+    // Where pairs of contacts bite their own tails a branch may be left: it is a lateral of what the way came from, in
+    // the order of that.
+    for (const ElementIndex first : FirstToLast())
     {
-      const std::size_t done = m_Roots.axes.size();
-      for (ElementIndex branch = 0; branch < m_Roots.rootOf.size(); ++branch)
+      if (m_Roots.rootOf[first] == kNoRoot && !m_Pairing.inside[first])
       {
-        const ElementIndex before = m_Flow.before[branch];
-        if (m_Roots.rootOf[branch] == kNoRoot && !m_Pairing.inside[branch] && before != kNoRoot &&
-            m_Roots.rootOf[before] != kNoRoot)
+        const std::size_t done = m_Roots.axes.size();
+        ElementIndex      before = m_Flow.before[first];
+        while (before != kNoRoot && m_Roots.rootOf[before] == kNoRoot)
         {
-          Add(branch, m_Roots.rootOf[before], false);
+          before = m_Flow.before[before]; // through a contact
         }
+        Add(first, before == kNoRoot ? kNoRoot : m_Roots.rootOf[before], before == kNoRoot);
+        Grow(done);
       }
-      if (m_Roots.axes.size() == done)
-      {
-        break;
-      }
-      Grow(done);
     }
     SortByLevel(m_Roots);
+    const RootSteps steps(m_Roots);
+    m_Roots.leftOut.assign(m_Roots.rootOf.size(), LeftOut::No);
+    for (ElementIndex branch = 0; branch < m_Roots.rootOf.size(); ++branch)
+    {
+      if (m_Pairing.inside[branch] && steps.OwnerOf(m_Branches.Graph().Branch(branch)) == kNoRoot)
+      {
+        m_Roots.leftOut[branch] = LeftOut::Bridge;
+      }
+    }
   }
 
 private:
+  /** All branches, each behind the one that its way comes from. */
+  std::vector<ElementIndex>
+  FirstToLast() const
+  {
+    std::vector<std::vector<ElementIndex>> after(m_Flow.before.size());
+    std::vector<ElementIndex>              order;
+    for (ElementIndex branch = 0; branch < after.size(); ++branch)
+    {
+      m_Flow.before[branch] == kNoRoot ? order.push_back(branch) : after[m_Flow.before[branch]].push_back(branch);
+    }
+    for (std::size_t i = 0; i < order.size(); ++i)
+    {
+      order.insert(order.end(), after[order[i]].begin(), after[order[i]].end());
+    }
+    return order;
+  }
+
   /** The laterals of axes from number `at` on, and theirs. */
   void
   Grow(std::size_t at)
@@ -80,11 +105,30 @@ private:
         {
           if (m_Roots.rootOf[lateral] == kNoRoot)
           {
-            Add(lateral, static_cast<ElementIndex>(at), false);
+            Add(lateral, ParentOf(lateral, static_cast<ElementIndex>(at)), false);
           }
         }
       }
     }
+  }
+
+  /** What springs from a root where that is still within its own parent springs from the parent. */
+  ElementIndex
+  ParentOf(ElementIndex lateral, ElementIndex root) const
+  {
+    const SkeletonGraph & graph = m_Branches.Graph();
+    const Vector3 &       place = graph.positions[m_Branches.PointFrom(m_Flow.Base(lateral), 0)];
+    for (ElementIndex above = m_Roots.axes[root].parent; above != kNoRoot; above = m_Roots.axes[root].parent)
+    {
+      const auto &       points = m_Roots.axes[above].points;
+      const ElementIndex near = points[NearestPoint(graph, points, place)];
+      if (Distance(graph.positions[near], place) > kOutsideBall * graph.radius[near])
+      {
+        break;
+      }
+      root = above;
+    }
+    return root;
   }
 
   void
@@ -153,6 +197,25 @@ private:
   ElementIndex                           m_LastHub = 0;
 };
 
+/** The coordinate axis, or its opposite, that points most from the centre of the skeleton to the base of the stem. */
+Vector3
+UpFrom(const SkeletonGraph & graph, ElementIndex base)
+{
+  Vector3 away = graph.positions[base];
+  for (const ElementIndex point : graph.branchPoints)
+  {
+    away = AddScaled(away, -1.0 / static_cast<double>(graph.branchPoints.size()), graph.positions[point]);
+  }
+  std::size_t axis = 2;
+  for (const std::size_t other : { std::size_t{ 1 }, std::size_t{ 0 } })
+  {
+    axis = std::abs(away[other]) > std::abs(away[axis]) ? other : axis;
+  }
+  Vector3 up{ 0, 0, 0 };
+  up[axis] = away[axis] < 0 ? -1 : 1;
+  return up;
+}
+
 } // namespace
 
 RootHierarchy
@@ -164,8 +227,8 @@ FindRoots(const SkeletonGraph & graph, const RootRules & rules)
     roots.up = rules.up.value_or(roots.up);
     return roots;
   }
-  const RootBranches     branches(graph);
-  std::vector<BranchEnd> stems = FindStems(branches, rules.up, rules.stems);
+  const RootBranches   branches(graph);
+  std::vector<StemWay> stems = FindStems(branches, rules.up, rules);
   roots.upFound = !rules.up;
   if (rules.up)
   {
@@ -173,16 +236,11 @@ FindRoots(const SkeletonGraph & graph, const RootRules & rules)
   }
   else if (!stems.empty())
   {
-    roots.up = FindUp(branches, stems.front());
-    stems = FindStems(branches, roots.up, rules.stems);
+    roots.up = UpFrom(graph, branches.PointFrom(stems.front().front(), 0));
+    stems = rules.stems == 1 ? stems : FindStems(branches, roots.up, rules);
   }
-  RootFlow    flow = FlowFrom(branches, stems);
-  RootPairing pairing = PairBranches(branches, flow, rules, false);
-  for (int round = 0; round < kMostTurns && TurnBackRoots(branches, rules, pairing, flow) > 0; ++round)
-  {
-    pairing = PairBranches(branches, flow, rules, false);
-  }
-  pairing = PairBranches(branches, flow, rules, true);
+  const RootFlow flow = FlowFrom(branches, stems);
+  RootPairing    pairing = PairBranches(branches, flow, rules);
   AxisBuilder(branches, flow, pairing, roots).Build();
   roots.meetings = std::move(pairing.meetings);
   FindWhorls(graph, rules, roots);

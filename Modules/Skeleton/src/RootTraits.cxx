@@ -3,6 +3,7 @@
 #include "HullSize.h"
 #include "MeanOfKnown.h"
 #include "RootLevels.h"
+#include "RootSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +60,7 @@ public:
       traits.roots.push_back(MeasureRoot(axis));
     }
     traits.levels = SumLevels(m_Roots, traits.roots);
+    traits.balance = Balance(traits);
     MeasureStems(traits);
     MeasureExtent(traits);
     FillClasses(traits);
@@ -171,6 +173,37 @@ private:
       record.alongParent = std::max(0.0, along[root.parentPoint] - along[m_First[root.parent]]);
     }
     return record;
+  }
+
+  RootBalance
+  Balance(const RootTraits & traits) const
+  {
+    RootBalance balance;
+    for (std::size_t axis = 0; axis < m_Ways.size(); ++axis)
+    {
+      balance.roots += traits.roots[axis].length;
+      balance.within += m_Ways[axis][m_First[axis]];
+      balance.bridged += m_Ways[axis].back();
+    }
+    double          once = 0; // on roots and on branches
+    const RootSteps steps(m_Roots);
+    for (ElementIndex branch = 0; branch < m_Graph.BranchCount(); ++branch)
+    {
+      const auto points = m_Graph.Branch(branch);
+      balance.skeleton += m_Graph.BranchLength(branch);
+      const LeftOut why = branch < m_Roots.leftOut.size() ? m_Roots.leftOut[branch] : LeftOut::No;
+      for (std::size_t i = 1; i < points.size(); ++i)
+      {
+        const double length = Distance(Place(points[i - 1]), Place(points[i]));
+        const auto   count = static_cast<double>(steps.Count(points[i - 1], points[i]));
+        once += count > 0 ? length : 0;
+        balance.shared += count > 1 ? (count - 1) * length : 0;
+        balance.bridges += count == 0 && why == LeftOut::Bridge ? length : 0;
+        balance.removed += count == 0 && why == LeftOut::Removed ? length : 0;
+      }
+    }
+    balance.bridged -= once + balance.shared;
+    return balance;
   }
 
   void

@@ -219,7 +219,8 @@ inline constexpr auto kShapeEditRows = std::to_array<Parameter>({
     "",
     false,
     kReads,
-    "Fill lumens that open only through holes up to D wide, such as 4vox or 0.5mm; nothing else is closed" },
+    "Fill lumens that open only through holes up to D wide, such as 4vox or 0.5mm, or where the scan's border cuts "
+    "them" },
   { "fill-slices",
     "--fill-slices",
     Text,

@@ -63,8 +63,13 @@ CloseShape(VoxelShape shape, const LatticeBall & ball, const ProgressCallback & 
  *  cavity is filled, and each lumen wider than D that opens only through holes up to D wide, however thin the wall. The
  *  background nearer than r to the shape goes to what it is nearer to along such steps, lumen or outside; as near to
  *  both it stays background. A hole in a wall so becomes a dent, and nothing is joined on the outside.
+ *  With the scan's size (voxels from 0 on), a lumen that its border cuts is closed there: in a slice at the border,
+ *  what the shape encloses, holes stopped by the ball, is no way out.
  *  Counts voxelsAdded, componentsJoined and, as cavitiesFilled, the lumens where the ball fits. \throws Cancelled */
 EditedShape
-FillHollows(VoxelShape shape, const LatticeBall & ball, const ProgressCallback & progress = {});
+FillHollows(VoxelShape                                         shape,
+            const LatticeBall &                                ball,
+            const ProgressCallback &                           progress = {},
+            const std::optional<std::array<std::int64_t, 3>> & scan = {});
 
 } // namespace voxelcore

@@ -4,27 +4,27 @@
 //
 // The rules, in the order they apply:
 // 1. Up. Given, or the coordinate axis along which the base of the stem lies farthest from the skeleton's centre.
-// 2. Stems. Each begins at a tip. That with the greatest sum of thickness (mean radius over a tenth of the skeleton's
-//    diagonal inwards, over the largest) and height along `up` (0 to 1; 0 where up is not known yet) is the first.
-//    More are taken as asked; to find how many there are, those with 0.6 of its thickness that lie in the upper quarter
-//    count.
-// 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: going on costs
-//    little, the less it turns and thins; springing from a side costs 1, wherever along a root; what goes into a much
-//    thicker branch costs more. Where a branch arrives at a junction that another reached before, there is a loop: two
-//    roots touch. A piece that was reached from a contact, and ends where it meets its parent or goes on there as
-//    another lateral, is turned if it then goes on better at the contact.
+// 2. Stems. The thickest long way through the skeleton: of all ways in the forest of its widest branches, the one with
+//    the greatest sum of length times radius to the third power, the less the more it turns where others leave. It goes
+//    on as long as neither branch is half as thick as the other. Its base is the end that is thicker and farther from
+//    the skeleton's middle, or higher where up is given. `stem` says where it begins and what it passes. More are
+//    taken as asked; to find how many there are, those with 0.6 of its thickness that begin in the upper quarter count.
+// 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: to turn and to thin
+//    costs, so does to spring from a side, and a little does length. Where a branch arrives at a junction that another
+//    reached before, there is a loop: two roots touch.
 // 4. Contacts. A bridge between the two, or a stretch they share, if it is short against their radii, is part of the
 //    contact. The arms that arrive and those that leave are paired so that the sum over pairs of
 //    cos(turn) + (thinner radius / thicker radius) - 1 is greatest, less 0.6 for those thinner than 0.6 of a root that
 //    goes through beside them; a pair below 0 is not made. Directions are measured outside the contact. An arm that
 //    arrives and has no partner ends there; one that leaves and has none is a lateral. Where the next best pairing is
 //    worse by less than `undecided`, the contact is marked.
-// 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker), and by up to 0.25 for
-//    the longest way beyond where they are alike in thickness; the others are its laterals, a level further out. The
-//    stem has level 0.
+// 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker), by 0.2 for each
+//    junction on the way beyond that has most, and by up to 0.25 for the longest way beyond where they are alike in
+//    thickness; the others are its laterals, a level further out. What springs where the root is still within its own
+//    parent springs from the parent. The stem has level 0.
 // 6. Whorls. Laterals of a stem whose places along it follow each other by less than `whorlGap` stem radii form one if
 //    there are `whorlSize` of them or more.
-// Pieces that hang together with no stem have a stem of their own, found by thickness; they are marked as loose.
+// Pieces that hang together with no stem have one of their own, marked as loose. `leftOut` says what is on no root.
 
 #include "voxelcore/SkeletonGraph.h"
 #include "voxelcore/Vectors.h"
@@ -41,6 +41,7 @@ struct RootRules
 {
   std::optional<Vector3> up;                 ///< unit vector in the space of the positions; none: found
   int                    stems = 1;          ///< 0: found
+  std::vector<Vector3>   stem;               ///< places along the only stem, from its base on; none: found
   double                 bridgeLength = 1.6; ///< longest bridge between roots that touch, in sums of their radii
   double                 sharedLength = 4;   ///< longest stretch that two roots share, in sums of their radii
   double                 tornGap = 2;        ///< longest gap in a torn root, in sums of the radii at its ends; 0: none
@@ -88,6 +89,14 @@ struct RootWhorl
   std::vector<ElementIndex> roots; ///< axes
 };
 
+/** Why a branch is on no root. */
+enum class LeftOut : std::uint8_t
+{
+  No,
+  Bridge, ///< between roots that touch
+  Removed ///< with a root that a person removed
+};
+
 struct RootHierarchy
 {
   Vector3                   up{ 0, 0, 1 };
@@ -96,6 +105,7 @@ struct RootHierarchy
   std::vector<RootMeeting>  meetings;
   std::vector<RootWhorl>    whorls; ///< from the base of each stem on
   std::vector<ElementIndex> rootOf; ///< per branch of the graph its axis; kNoRoot for a bridge between roots that touch
+  std::vector<LeftOut>      leftOut; ///< per branch
 };
 
 /** Joins what is torn: two tips that face each other, of which the thinner has at least half of the other's radius,

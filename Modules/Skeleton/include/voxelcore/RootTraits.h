@@ -86,12 +86,32 @@ struct RootDiameterRecord
   double length = 0;
 };
 
+/** Where the length of a skeleton is, mm. */
+struct RootBalance
+{
+  double skeleton = 0; ///< of all branches
+  double roots = 0;    ///< of all roots, as they are measured
+  double within = 0;   ///< of their first pieces, within their parents
+  double shared = 0;   ///< counted more than once in these two, where several roots share a stretch
+  double bridged = 0;  ///< in these two, but on no branch: an edit's line over a gap
+  double bridges = 0;  ///< on no root: between roots that touch
+  double removed = 0;  ///< on no root: taken off by an edit
+
+  /** Length that is on no root for no reason: 0, or a rule has failed. */
+  double
+  Missing() const
+  {
+    return skeleton - (roots + within - shared - bridged) - bridges - removed;
+  }
+};
+
 struct RootTraits
 {
   std::vector<RootRecord>         roots;     ///< as in RootHierarchy::axes
   std::vector<RootLevelRecord>    levels;    ///< from 0 on, then all laterals, then all
   std::vector<RootDepthRecord>    depths;    ///< 20 slices from the highest point to the deepest
   std::vector<RootDiameterRecord> diameters; ///< 20 classes from 0 to the greatest diameter
+  RootBalance                     balance;
   std::int64_t                    stems = 0;
   double                          stemLength = 0; ///< of all stems
   double                          stemDiameter = 0;
