@@ -43,7 +43,9 @@ SmallModel()
   }
   SortBranches(model.graph, lines, true);
   model.name = "a<b>&c";
-  model.roots = FindRoots(model.graph);
+  RootRules rules;
+  rules.up = Vector3{ 0, 0, 1 };
+  model.roots = FindRoots(model.graph, rules);
   model.traits = MeasureRoots(model.graph, model.roots);
   return model;
 }
