@@ -18,7 +18,7 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
   request.skeleton = options.skeleton;
   if (request.skeleton && request.skeleton->network)
   {
-    // Only when its points have labels: TakeNetwork().
+    // Only when its points have labels: NetworkLabels::Take().
     request.skeleton->branches.cutLoops = false;
     request.skeleton->branches.splitAtJunctions = false;
   }

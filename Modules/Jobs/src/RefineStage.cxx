@@ -4,6 +4,7 @@
 #include "voxelcore/BodyFrame.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/ShapeOperations.h"
 
 #include <algorithm>
 #include <array>
@@ -80,19 +81,6 @@ LookedAtFrom(const SurfaceSource::Place & place, VoxelBox box)
   return box;
 }
 
-/** The box of two. */
-VoxelBox
-Hull(const VoxelBox & a, const VoxelBox & b)
-{
-  VoxelBox hull;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    hull.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    hull.size[axis] = std::max(a.lower[axis] + a.size[axis], b.lower[axis] + b.size[axis]) - hull.lower[axis];
-  }
-  return hull;
-}
-
 /** Of a shape that goes on beyond the scan: the values at the border go on with it, and where a body ends at the border
  *  their sign is turned. `rows` gives those within. */
 std::unique_ptr<SurfaceEstimate>
@@ -121,7 +109,7 @@ SurfaceBeyondScan(const VoxelShape &       shape,
       }
     }
   };
-  return SurfaceFromGrey(shape, spacing, Hull(scan, shape.Box()), GreyRows(goOn), progress);
+  return SurfaceFromGrey(shape, spacing, BoxOfBoth(scan, shape.Box()), GreyRows(goOn), progress);
 }
 
 /** Rows of a box kept in memory. */
@@ -180,7 +168,7 @@ GreySource(const RefineOptions &         options,
         rows(x + place[0], y + place[1], z + place[2], values);
       };
       const VoxelBox scanned = LookedAtFrom(place, whole);
-      return SurfaceSource::Estimate(Hull(scanned, shape.Box()).size != scanned.size
+      return SurfaceSource::Estimate(BoxOfBoth(scanned, shape.Box()).size != scanned.size
                                        ? SurfaceBeyondScan(shape, spacing, scanned, rowsThere, progress)
                                        : SurfaceFromGrey(shape, spacing, scanned, GreyRows(rowsThere), progress));
     };
@@ -210,7 +198,7 @@ GreySource(const RefineOptions &         options,
       const VoxelBox inScan = LookedAtFrom({ -place[0], -place[1], -place[2] }, box);
       RequireSamePlace(greyValues->Visit(inScan, takeRow, progress), geometry, "--grey", path);
     };
-    if (Hull(scanned, shape.Box()).size != scanned.size)
+    if (BoxOfBoth(scanned, shape.Box()).size != scanned.size)
     {
       return SurfaceBeyondScan(shape, geometry.spacing, scanned, KeptRows({ box, visit }), progress);
     }

@@ -5,9 +5,11 @@
 #include "SkeletonValues.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
+#include "voxelcore/SkeletonTexts.h"
+#include "voxelcore/Text.h"
+#include "voxelcore/TextFields.h"
 
-#include <array>
-#include <cstdlib>
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -18,23 +20,21 @@ namespace
 {
 
 /** "X,Y,Z;X,Y,Z" */
-std::vector<std::array<double, 3>>
+std::vector<Vector3>
 PlacesFrom(const std::string & text)
 {
-  std::vector<std::array<double, 3>> places;
-  std::istringstream                 all(text);
+  std::vector<Vector3> places;
+  std::istringstream   all(text);
   for (std::string one; std::getline(all, one, ';');)
   {
-    std::istringstream    numbers(one);
-    std::array<double, 3> place{};
-    char                  between[2]{};
-    char                  rest = 0;
-    if (!(numbers >> place[0] >> between[0] >> place[1] >> between[1] >> place[2]) || between[0] != ',' ||
-        between[1] != ',' || numbers >> rest)
+    std::vector<std::string> parts = SplitText(one, ',');
+    std::ranges::transform(parts, parts.begin(), [](const std::string & part) { return std::string(Trim(part)); });
+    const auto place = ParsePlace(parts);
+    if (!place)
     {
       throw UsageError("--stem " + text + ": expected places as X,Y,Z, several with ';' between them");
     }
-    places.push_back(place);
+    places.push_back(*place);
   }
   return places;
 }

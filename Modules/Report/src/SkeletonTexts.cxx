@@ -12,6 +12,22 @@
 namespace voxelcore
 {
 
+std::optional<Vector3>
+ParsePlace(const std::vector<std::string> & parts)
+{
+  Vector3 place{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const auto value = parts.size() == 3 ? ParseReal(parts[axis]) : std::nullopt;
+    if (!value || !std::isfinite(*value))
+    {
+      return std::nullopt;
+    }
+    place[axis] = *value;
+  }
+  return place;
+}
+
 RootChoice
 ParseRoot(const std::string & text)
 {
@@ -27,22 +43,14 @@ ParseRoot(const std::string & text)
   {
     return { RootChoice::Kind::Bottom, {} };
   }
-  const auto parts = SplitText(text, ',');
-  RootChoice root{ RootChoice::Kind::Point, {} };
-  bool       good = parts.size() == 3;
-  for (std::size_t axis = 0; good && axis < 3; ++axis)
-  {
-    const auto value = ParseReal(parts[axis]);
-    good = value && std::isfinite(*value);
-    root.point[axis] = value.value_or(0);
-  }
-  if (!good)
+  const auto place = ParsePlace(SplitText(text, ','));
+  if (!place)
   {
     constexpr std::array<std::string_view, 3> words{ "top", "bottom", "thickest" };
     throw UsageError("--root " + text + ": expected top, bottom, thickest, or a point in LPS mm such as 12.5,-30,101" +
                      DidYouMean(text, words));
   }
-  return root;
+  return { RootChoice::Kind::Point, *place };
 }
 
 std::string

@@ -1,6 +1,7 @@
 #include "voxelcore/BorderExtension.h"
 
 #include "LowerEnvelope.h"
+#include "ShapeBits.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/SpacingWeights.h"
 
@@ -561,38 +562,6 @@ Touches(const VoxelBox & box, const VoxelBox & scan, std::size_t axis, bool isUp
                  : box.lower[axis] <= scan.lower[axis];
 }
 
-/** The same voxels in a box that holds the shape's. */
-VoxelShape
-InGreaterBox(const VoxelShape & shape, const VoxelBox & box)
-{
-  VoxelShape        result(box);
-  const auto        from = static_cast<std::size_t>(shape.Box().lower[0] - box.lower[0]);
-  const unsigned    shift = static_cast<unsigned>(from) & 63U;
-  const std::size_t skip = from / 64;
-  for (std::int32_t z = 0; z < shape.Box().size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < shape.Box().size[1]; ++y)
-    {
-      const ConstShapeRow row = shape.Row(y, z);
-      const ShapeRow to = result.Row(y + shape.Box().lower[1] - box.lower[1], z + shape.Box().lower[2] - box.lower[2]);
-      for (std::size_t word = 0; word < row.size(); ++word)
-      {
-        const std::uint64_t bits = row[word];
-        if (bits == 0)
-        {
-          continue;
-        }
-        to[word + skip] |= bits << shift;
-        if (const std::uint64_t over = shift == 0 ? 0 : bits >> (64 - shift); over != 0)
-        {
-          to[word + skip + 1] |= over;
-        }
-      }
-    }
-  }
-  return result;
-}
-
 /** What is added at a section: layers of pixels, in indices of the scan. */
 struct Addition
 {
@@ -698,7 +667,8 @@ WithAdditions(const VoxelShape & shape, const std::vector<Addition> & additions)
       }
     });
   }
-  VoxelShape grown = InGreaterBox(shape, { low, { end[0] - low[0], end[1] - low[1], end[2] - low[2] } });
+  VoxelShape grown({ low, { end[0] - low[0], end[1] - low[1], end[2] - low[2] } });
+  PutInto(shape, grown);
   for (const Addition & addition : additions)
   {
     ForVoxels(addition, [&](const std::array<std::int32_t, 3> & voxel) { grown.Insert(voxel[0], voxel[1], voxel[2]); });

@@ -1,6 +1,7 @@
 // FillHollows of ShapeClosing.h.
 
 #include "voxelcore/ShapeClosing.h"
+#include "voxelcore/SliceHoles.h"
 #include "voxelcore/StagePlan.h"
 
 #include "BallDilation.h"
@@ -13,7 +14,6 @@
 #include <array>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace voxelcore
 {
@@ -63,63 +63,11 @@ BackgroundOf(const VoxelShape & shape, const VoxelBox & box)
 void
 CapLumens(std::size_t axis, std::int32_t at, VoxelShape & dilated)
 {
-  const VoxelBox &   box = dilated.Box();
-  const std::size_t  first = axis == 0 ? 1 : 0;
-  const std::size_t  second = axis == 2 ? 1 : 2;
-  const std::int32_t width = box.size[first];
-  const std::int32_t height = box.size[second];
-  const auto         place = [&](std::int32_t u, std::int32_t v) {
-    std::array<std::int32_t, 3> voxel{ at, at, at };
-    voxel[first] = box.lower[first] + u;
-    voxel[second] = box.lower[second] + v;
-    return voxel;
-  };
-  const auto number = [&](std::int32_t u, std::int32_t v) {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
-  };
-  std::vector<std::uint8_t>                          isOut(number(width - 1, height - 1) + 1, 0);
-  std::vector<std::pair<std::int32_t, std::int32_t>> open;
-  const auto                                         reach = [&](std::int32_t u, std::int32_t v) {
-    if (u >= 0 && v >= 0 && u < width && v < height && isOut[number(u, v)] == 0)
-    {
-      const auto voxel = place(u, v);
-      if (!dilated.Contains(voxel[0], voxel[1], voxel[2]))
-      {
-        isOut[number(u, v)] = 1;
-        open.emplace_back(u, v);
-      }
-    }
-  };
-  for (std::int32_t u = 0; u < width; ++u)
-  {
-    reach(u, 0);
-    reach(u, height - 1);
-  }
-  for (std::int32_t v = 0; v < height; ++v)
-  {
-    reach(0, v);
-    reach(width - 1, v);
-  }
-  while (!open.empty())
-  {
-    const auto [u, v] = open.back();
-    open.pop_back();
-    for (std::int32_t step = 0; step < 9; ++step)
-    {
-      reach(u + step % 3 - 1, v + step / 3 - 1);
-    }
-  }
-  for (std::int32_t v = 0; v < height; ++v)
-  {
-    for (std::int32_t u = 0; u < width; ++u)
-    {
-      if (isOut[number(u, v)] == 0)
-      {
-        const auto voxel = place(u, v);
-        dilated.Insert(voxel[0], voxel[1], voxel[2]);
-      }
-    }
-  }
+  VoxelBox slice = dilated.Box();
+  slice.lower[axis] = at;
+  slice.size[axis] = 1;
+  std::uint64_t count = 0;
+  PutInto(FindSliceHoles(CopyBox(dilated, slice), static_cast<SliceAxis>(axis), count), dilated);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "voxelcore/LabelContacts.h"
 
+#include "ShapeBits.h"
+#include "voxelcore/ShapeOperations.h"
 #include "voxelcore/UnionFind.h"
 
 #include <algorithm>
@@ -120,22 +122,9 @@ TouchingPairs(const std::vector<LabelShape> & labels)
 LabelSlices::LabelSlices(const std::vector<LabelShape> & labels)
   : m_Labels(&labels)
 {
-  bool isFirst = true;
   for (const LabelShape & label : labels)
   {
-    const VoxelBox & box = label.shape.Box();
-    if (box.size[0] == 0)
-    {
-      continue;
-    }
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const std::int32_t lower = isFirst ? box.lower[axis] : std::min(m_Box.lower[axis], box.lower[axis]);
-      const std::int32_t upper = box.lower[axis] + box.size[axis];
-      m_Box.size[axis] = (isFirst ? upper : std::max(m_Box.lower[axis] + m_Box.size[axis], upper)) - lower;
-      m_Box.lower[axis] = lower;
-    }
-    isFirst = false;
+    m_Box = BoxOfBoth(m_Box, label.shape.Box());
   }
 }
 
@@ -257,35 +246,10 @@ FindLabelContacts(const std::vector<LabelShape> & labels, const ImageGeometry & 
 VoxelShape
 UnionOfLabels(const std::vector<LabelShape> & labels)
 {
-  const LabelSlices slices(labels);
-  const VoxelBox &  box = slices.Box();
-  VoxelShape        shape(box);
+  VoxelShape shape(LabelSlices(labels).Box());
   for (const LabelShape & label : labels)
   {
-    const VoxelBox & own = label.shape.Box();
-    for (std::int32_t z = 0; z < own.size[2]; ++z)
-    {
-      for (std::int32_t y = 0; y < own.size[1]; ++y)
-      {
-        const ConstShapeRow from = label.shape.Row(y, z);
-        ShapeRow            to = shape.Row(y + own.lower[1] - box.lower[1], z + own.lower[2] - box.lower[2]);
-        const auto          by = static_cast<std::size_t>(own.lower[0] - box.lower[0]);
-        const std::size_t   shift = by % 64;
-        for (std::size_t word = 0; word < from.size(); ++word)
-        {
-          const std::uint64_t bits = from[word];
-          const std::size_t   at = word + by / 64;
-          if (bits << shift != 0)
-          {
-            to[at] |= bits << shift;
-          }
-          if (shift != 0 && bits >> (64 - shift) != 0)
-          {
-            to[at + 1] |= bits >> (64 - shift);
-          }
-        }
-      }
-    }
+    PutInto(label.shape, shape);
   }
   shape.Compact();
   return shape;

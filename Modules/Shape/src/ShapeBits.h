@@ -14,6 +14,10 @@ TightBox(const VoxelShape & shape);
 VoxelShape
 CopyBox(const VoxelShape & shape, const VoxelBox & box);
 
+/** Sets the voxels of `shape` in `result`, whose box holds its box. */
+void
+PutInto(const VoxelShape & shape, VoxelShape & result);
+
 /** CropToVoxels without a copy where the box is tight already. */
 VoxelShape
 Tightened(VoxelShape shape);

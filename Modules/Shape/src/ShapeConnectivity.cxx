@@ -5,7 +5,6 @@
 #include "PaddedShape.h"
 #include "TouchingPieces.h"
 
-
 #include <algorithm>
 #include <bit>
 #include <cstddef>

@@ -129,6 +129,22 @@ VoxelsWithin(const VoxelShape & shape, const VoxelBox & box)
   return Tightened(CopyBox(shape, CommonBox(shape.Box(), box)));
 }
 
+VoxelBox
+BoxOfBoth(const VoxelBox & a, const VoxelBox & b)
+{
+  if (a.size[0] == 0 || b.size[0] == 0)
+  {
+    return a.size[0] == 0 ? b : a;
+  }
+  VoxelBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    box.size[axis] = std::max(a.lower[axis] + a.size[axis], b.lower[axis] + b.size[axis]) - box.lower[axis];
+  }
+  return box;
+}
+
 EditedShape
 CropToBox(VoxelShape shape, const VoxelBox & box)
 {

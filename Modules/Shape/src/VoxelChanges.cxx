@@ -4,6 +4,7 @@
 #include "ShapeRuns.h"
 
 #include "voxelcore/Error.h"
+#include "voxelcore/ShapeOperations.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -71,46 +72,6 @@ ParseRun(std::string_view word)
     run.length = *number;
   }
   return run;
-}
-
-VoxelBox
-BoxOfBoth(const VoxelBox & a, const VoxelBox & b)
-{
-  if (a.size[0] == 0 || b.size[0] == 0)
-  {
-    return a.size[0] == 0 ? b : a;
-  }
-  VoxelBox box;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    box.size[axis] = std::max(a.lower[axis] + a.size[axis], b.lower[axis] + b.size[axis]) - box.lower[axis];
-  }
-  return box;
-}
-
-/** Copies the voxels of `shape` into `result`, whose box holds them. */
-void
-PutInto(const VoxelShape & shape, VoxelShape & result)
-{
-  const Runs   runs = VoxelRuns(shape);
-  const auto & lower = shape.Box().lower;
-  const auto & to = result.Box().lower;
-  for (std::int32_t z = 0; z < runs.rowsZ; ++z)
-  {
-    for (std::int32_t y = 0; y < runs.rowsY; ++y)
-    {
-      const std::size_t row =
-        static_cast<std::size_t>(z) * static_cast<std::size_t>(runs.rowsY) + static_cast<std::size_t>(y);
-      for (std::size_t run = runs.rowStart[row]; run < runs.rowStart[row + 1]; ++run)
-      {
-        SetRun(result.Row(y + lower[1] - to[1], z + lower[2] - to[2]),
-               runs.begin[run] + lower[0] - to[0],
-               runs.end[run] + lower[0] - to[0],
-               true);
-      }
-    }
-  }
 }
 
 } // namespace

@@ -111,6 +111,36 @@ TightBox(const VoxelShape & shape)
   return tight;
 }
 
+void
+PutInto(const VoxelShape & shape, VoxelShape & result)
+{
+  const VoxelBox &  box = shape.Box();
+  const auto &      to = result.Box().lower;
+  const auto        by = static_cast<std::size_t>(box.lower[0] - to[0]);
+  const std::size_t skip = by / 64;
+  const std::size_t shift = by % 64;
+  for (std::int32_t z = 0; z < box.size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < box.size[1]; ++y)
+    {
+      const ConstShapeRow from = shape.Row(y, z);
+      const ShapeRow      row = result.Row(y + box.lower[1] - to[1], z + box.lower[2] - to[2]);
+      for (std::size_t word = 0; word < from.size(); ++word)
+      {
+        const std::uint64_t bits = from[word];
+        if (bits << shift != 0)
+        {
+          row[word + skip] |= bits << shift;
+        }
+        if (shift != 0 && bits >> (64 - shift) != 0)
+        {
+          row[word + skip + 1] |= bits >> (64 - shift);
+        }
+      }
+    }
+  }
+}
+
 VoxelShape
 CopyBox(const VoxelShape & shape, const VoxelBox & box)
 {

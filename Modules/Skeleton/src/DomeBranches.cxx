@@ -133,19 +133,19 @@ private:
       dome.foot[axis] = 0.5 * (before[axis] + behind[axis]);
     }
     const double radius = Radius(line, greatest);
-    const double way3 = Distance(dome.foot, Place(line, greatest));
+    const double wayIn = Distance(dome.foot, Place(line, greatest));
     const double least = std::max(m_StandOut, kDomeOfRadius * radius);
-    if (way3 + radius < least || !m_Inside.Holds(dome.foot) || !m_Inside.HoldsSegment(dome.foot, before) ||
+    if (wayIn + radius < least || !m_Inside.Holds(dome.foot) || !m_Inside.HoldsSegment(dome.foot, before) ||
         !m_Inside.HoldsSegment(dome.foot, behind) || !m_Inside.HoldsSegment(dome.foot, Place(line, dome.before + 1)))
     {
       return std::nullopt;
     }
     // By so much balls of a refined surface differ from those of voxels.
-    const double most = radius + way3;
+    const double most = radius + wayIn;
     const double differs =
       Radius(line, dome.before) - m_Inside.DistanceToBoundary(before, 0, Radius(line, dome.before) + most);
     dome.footRadius = std::max(0.0, m_Inside.DistanceToBoundary(dome.foot, 0, most) + differs);
-    if (radius <= dome.footRadius || way3 + radius - dome.footRadius < least)
+    if (radius <= dome.footRadius || wayIn + radius - dome.footRadius < least)
     {
       return std::nullopt;
     }

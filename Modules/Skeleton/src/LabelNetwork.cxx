@@ -18,8 +18,6 @@ namespace voxelcore
 namespace
 {
 
-using Lines = std::vector<std::vector<ElementIndex>>;
-
 constexpr std::size_t kNoContact = std::numeric_limits<std::size_t>::max();
 
 /** A graph in lines, with a label for each point; at points with a mark labels meet. */
@@ -29,7 +27,7 @@ struct LabelledLines
   std::vector<double>        radius;
   std::vector<std::uint32_t> labels;
   std::vector<std::uint8_t>  marks;
-  Lines                      lines;
+  GraphLines                 lines;
 };
 
 /** Where labels meet. */
@@ -72,11 +70,7 @@ public:
     m_Now.radius = graph.radius;
     m_Now.labels = ChooseLabels(graph, m_Shares, touching, labels.size());
     m_Now.marks.assign(graph.positions.size(), 0);
-    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-    {
-      const auto points = graph.Branch(branch);
-      m_Now.lines.emplace_back(points.begin(), points.end());
-    }
+    m_Now.lines = LinesOf(graph);
   }
 
   /** Brings contacts to junctions where that leaves fewer of them without a place of their own. */
@@ -480,7 +474,7 @@ private:
   void
   Write()
   {
-    Lines cut;
+    GraphLines cut;
     for (const auto & line : m_Now.lines)
     {
       for (std::size_t i = 0; i < line.size(); ++i)
@@ -510,7 +504,7 @@ private:
 
   /** Drops points of lines that were drawn together. */
   void
-  KeepPointsOf(Lines & lines)
+  KeepPointsOf(GraphLines & lines)
   {
     std::vector<std::uint8_t> keep(m_Graph.positions.size(), 1);
     for (const ElementIndex point : m_Graph.branchPoints)

@@ -258,8 +258,8 @@ private:
   double     m_More;
 };
 
-void
-KeepToLabels(PaintingBalls & balls, const VoxelShape & shape, const SpacingWeights & weights)
+PaintingBalls
+KeptToLabels(PaintingBalls balls, const VoxelShape & shape, const SpacingWeights & weights)
 {
   const AllowedBody body(shape, weights);
   RunInParts(balls.Count() > 1000, balls.Count(), [&](std::size_t first, std::size_t last) {
@@ -269,6 +269,7 @@ KeepToLabels(PaintingBalls & balls, const VoxelShape & shape, const SpacingWeigh
       balls.value[i] = balls.radius[i];
     }
   });
+  return balls;
 }
 
 /** The radius of a ball in the body that holds a place, at most that of the ball it is towards, mm: that ball, pushed
@@ -309,9 +310,7 @@ SmoothBalls(const VoxelShape &       shape,
   {
     StagePlan           plan(progress, { 0.5, 0.5 });
     const SurfacePlaces places = PlacesOn(*surface, squares, sides, plan.Next("thickness"));
-    PaintingBalls       balls = BallsAt(places, shape, sides, plan.Next("thickness"));
-    KeepToLabels(balls, shape, weights);
-    return balls;
+    return KeptToLabels(BallsAt(places, shape, sides, plan.Next("thickness")), shape, weights);
   }
   StagePlan           plan(progress, { 0.2, 0.2, 0.1, 0.3, 0.2 });
   const LabelPlaces   labels(squares, sides);
@@ -331,9 +330,7 @@ SmoothBalls(const VoxelShape &       shape,
     }
   }
   const SurfacePlaces places = labels.Find(reaches, plan.Next("thickness"));
-  PaintingBalls       balls = BallsAt(places, shape, sides, plan.Next("thickness"));
-  KeepToLabels(balls, shape, weights);
-  return balls;
+  return KeptToLabels(BallsAt(places, shape, sides, plan.Next("thickness")), shape, weights);
 }
 
 VoxelValues

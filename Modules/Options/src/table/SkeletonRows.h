@@ -101,8 +101,7 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     false,
     kSkeleton | kRoots,
     "Bodies cut by the scan's border: run on to it (open), end as if their voxels were all (closed), or, in parts of "
-    "one "
-    "volume that share a layer of voxels, end at the same place in both parts (overlap)" },
+    "one volume that share a layer of voxels, end at the same place in both parts (overlap)" },
   { "cut-loops",
     "--cut-loops",
     Flag,

@@ -3,10 +3,16 @@
 
 #include "voxelcore/CertifiedSkeleton.h"
 
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace voxelcore
 {
+
+/** Three finite coordinates; nothing for any other number of parts, or where one is no number. */
+std::optional<Vector3>
+ParsePlace(const std::vector<std::string> & parts);
 
 /** "top", "bottom", "thickest" or "x,y,z" in LPS mm. \throws UsageError */
 RootChoice

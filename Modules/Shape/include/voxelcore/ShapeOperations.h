@@ -21,6 +21,10 @@ struct EditedShape
   std::uint64_t cavitiesFilled = 0;    ///< 26-connected components of the background
 };
 
+/** The smallest box that holds both; one without voxels counts for nothing. */
+VoxelBox
+BoxOfBoth(const VoxelBox & a, const VoxelBox & b);
+
 /** The voxels inside `box` (voxel indices of the scan; it may reach beyond the shape's box, and a side of no voxels
  *  means an empty box). Components and cavities that are cut may fall apart or open: they are not counted. */
 EditedShape
