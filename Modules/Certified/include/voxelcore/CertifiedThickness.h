@@ -27,12 +27,11 @@ struct VoxelsOutside
 };
 
 /** Where cores are refined, the map is that of balls inscribed in the smooth surface that the voxels stand for
- *  (SmoothBalls.h), and bounds are those of all smooth surfaces that the labels allow (SmoothBracket()),
- *  which know nothing of these balls: what is outside is refused, or counted where grey values or a mesh tell the
- *  surface, which may be none that the labels allow. Else it is
- *  that of the truly inscribed balls about places of the whole core: each radius is the distance to the nearest square
- *  of the boundary, measured in the voxels. Lower bounds may be greater: they also come from a finer lattice. Neither
- *  asks how a core is pruned. */
+ *  (SmoothBalls.h), and bounds are those of all smooth surfaces that the labels allow (SmoothBracket()), computed
+ *  without these balls. A voxel outside them is refused; where grey values or a mesh tell the surface, which may be
+ *  none that the labels allow, it is counted. Else the map is that of the truly inscribed balls about places of the
+ *  whole core: each radius is the distance to the nearest square of the boundary, measured in the voxels. Lower bounds
+ *  may be greater: they also come from a finer lattice. Neither asks how a core is pruned. */
 struct CertifiedThickness
 {
   VoxelShape         shape;

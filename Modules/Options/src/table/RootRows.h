@@ -32,8 +32,8 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots,
-    "The stem begins near this place in the scan's space, and leads past the others, if there are any; without this it "
-    "is the thickest long way" },
+    "Where the stem begins, in the scan's space; further places say what it passes. By default it is the thickest long "
+    "way through the skeleton" },
   { "edits",
     "--edits",
     Input,
