@@ -5,8 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iostream>
 #include <numbers>
 #include <omp.h>
+#include <random>
 
 namespace voxelcore::testing
 {
@@ -137,6 +141,52 @@ TEST(CrossSections, WhatHasNoSectionIsARodOfItsVolume)
   EXPECT_NEAR(graph.sectionRadius[0],
               std::cbrt(0.75 * static_cast<double>(ball.CountVoxels()) / std::numbers::pi),
               1e-9);
+}
+
+TEST(CrossSections, StenosesAndBulgesKeepTheirDepth)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937 random(seed);
+  const auto   within = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  for (int body = 0; body < 8; ++body)
+  {
+    const double radius = within(5, 8);
+    const double depth = body % 2 == 0 ? within(0.3, 0.7) : -within(0.3, 0.8); // narrower, wider
+    const double width = within(3, 8);
+    const double length = std::max(10 * width, 50.0);
+    Spacing3     way{ within(-1, 1), within(-1, 1), within(-1, 1) };
+    way = AddScaled({}, 1 / Length(way), way);
+    Spacing3 half{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      half[k] = 0.5 * length * std::abs(way[k]) + 2 * radius;
+    }
+    const Spacing3      shift{ within(-0.5, 0.5), within(-0.5, 0.5), within(-0.5, 0.5) };
+    const VoxelShape    shape = Around(half, { 1, 1, 1 }, shift, [&](const Spacing3 & p) {
+      const double along = Dot(p, way);
+      const double here = radius * (1 - depth * std::exp(-0.5 * along * along / (width * width)));
+      return std::abs(along) <= 0.5 * length && Length(AddScaled(p, -along, way)) <= here;
+    });
+    const SkeletonGraph graph = GraphOf(shape, { 1, 1, 1 });
+    double              least = radius;
+    double              most = radius;
+    for (std::size_t point = 0; point < graph.positions.size(); ++point)
+    {
+      const Spacing3 & place = graph.positions[point];
+      // Lines end in corners here, as nothing puts their ends where the tube ends.
+      if (std::all_of(graph.nodePoints.begin(), graph.nodePoints.end(), [&](ElementIndex end) {
+            return Distance(place, graph.positions[end]) > 1.5 * radius;
+          }))
+      {
+        least = std::min(least, graph.sectionRadius[point]);
+        most = std::max(most, graph.sectionRadius[point]);
+      }
+    }
+    const double at = radius * (1 - depth);
+    EXPECT_NEAR(least, std::min(radius, at), 0.3) << "radius " << radius << ", " << at << " within " << width;
+    EXPECT_NEAR(most, std::max(radius, at), 0.3) << "radius " << radius << ", " << at << " within " << width;
+  }
 }
 
 TEST(CrossSections, AClosedTubeIsMeasuredAllAround)

@@ -289,10 +289,10 @@ private:
 
 } // namespace
 
-std::vector<double>
+std::vector<BoundaryShare>
 BoundaryShares(const VoxelShape & shape, const Vector3 & spacing, const std::vector<WeightedSite> & sites)
 {
-  std::vector<double> shares(sites.size(), 0);
+  std::vector<BoundaryShare> shares(sites.size());
   if (sites.empty())
   {
     return shares;
@@ -301,11 +301,11 @@ BoundaryShares(const VoxelShape & shape, const Vector3 & spacing, const std::vec
   const Vector3    areas{ volume / spacing[0], volume / spacing[1], volume / spacing[2] };
   const SiteTree   tree(sites);
   const FaceBricks bricks(shape, spacing);
-  using Parts = std::vector<std::pair<std::uint32_t, double>>; // sites and what a brick gives them
+  using Parts = std::vector<std::pair<std::uint32_t, BoundaryShare>>; // sites and what a brick gives them
   std::vector<Parts> layers(bricks.Layers());
   RunEach(layers.size(), [&](std::size_t layer) {
     std::vector<std::uint32_t> candidates;
-    std::vector<double>        sums;
+    std::vector<BoundaryShare> sums;
     bricks.ForEach(layer, [&](const std::vector<Face> & faces) {
       Box box{ faces.front().middle, faces.front().middle };
       for (const Face & face : faces)
@@ -318,7 +318,7 @@ BoundaryShares(const VoxelShape & shape, const Vector3 & spacing, const std::vec
       }
       tree.Candidates(box, candidates);
       std::sort(candidates.begin(), candidates.end());
-      sums.assign(candidates.size(), 0);
+      sums.assign(candidates.size(), {});
       for (const Face & face : faces)
       {
         std::size_t best = 0;
@@ -336,12 +336,15 @@ BoundaryShares(const VoxelShape & shape, const Vector3 & spacing, const std::vec
         }
         const WeightedSite & site = sites[candidates[best]];
         const Vector3        away = Minus(face.middle, site.place);
-        const double         across = away[face.axis] - Dot(away, site.axis) * site.axis[face.axis];
-        sums[best] += 0.5 * face.outwards * areas[face.axis] * across;
+        const double         along = Dot(away, site.axis);
+        const double         across = away[face.axis] - along * site.axis[face.axis];
+        const double         part = 0.5 * face.outwards * areas[face.axis] * across;
+        sums[best].volume += part;
+        sums[best].moment += part * along;
       }
       for (std::size_t i = 0; i < candidates.size(); ++i)
       {
-        if (sums[i] != 0)
+        if (sums[i].volume != 0 || sums[i].moment != 0)
         {
           layers[layer].emplace_back(candidates[i], sums[i]);
         }
@@ -352,7 +355,8 @@ BoundaryShares(const VoxelShape & shape, const Vector3 & spacing, const std::vec
   {
     for (const auto & [site, sum] : parts)
     {
-      shares[site] += sum;
+      shares[site].volume += sum.volume;
+      shares[site].moment += sum.moment;
     }
   }
   return shares;

@@ -19,10 +19,17 @@ struct WeightedSite
   Vector3 axis{};     ///< unit vector across which the integral is taken; 0: in all directions
 };
 
-/** Per site half the integral over its part of the boundary of (x - place) n across `axis`, in mm^3, where n points
- *  outwards: the volume of a slab across the axis. Each face of a voxel belongs as a whole to the site of its middle.
- *  The same bits for every number of threads. */
-std::vector<double>
+/** What a site has of a shape. */
+struct BoundaryShare
+{
+  double volume = 0; ///< mm^3
+  double moment = 0; ///< mm^4: of that volume along the site's axis, from its place on
+};
+
+/** Per site half the integral over its part of the boundary of (x - place) n across `axis`, where n points outwards:
+ *  the volume of a slab across the axis. Each face of a voxel belongs as a whole to the site of its middle. The same
+ *  bits for every number of threads. */
+std::vector<BoundaryShare>
 BoundaryShares(const VoxelShape & shape, const Vector3 & spacing, const std::vector<WeightedSite> & sites);
 
 } // namespace voxelcore

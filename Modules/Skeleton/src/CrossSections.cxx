@@ -3,6 +3,7 @@
 #include "BoundaryShares.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -16,9 +17,15 @@ namespace
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// Sections are means over so many voxel diagonals to each side, or over a radius: what a single slab between two points
-// of a skeleton gets is a matter of chance.
-constexpr double kWindowInDiagonals = 2;
+// Zigzag tilts slabs: places are means over so many voxel diagonals to each side, or over a radius.
+constexpr double kStraightInDiagonals = 2;
+
+// So many extents of a voxel along the branch tell a section, to each side. With 1.5, the least radius of even tubes in
+// thick slices is off by half as much again; with 2.5, short stenoses in thick slices come out wider.
+constexpr double kWindowInExtents = 2;
+
+// So many slabs in the extent of a voxel along the branch: with thicker ones, what changes within a slab is lost.
+constexpr double kSlabsInExtent = 2;
 
 /** The radius of a round rod between two half balls, by its volume and the distance of their centres. */
 double
@@ -34,21 +41,36 @@ RodRadius(double volume, double length)
   return 0.5 * (low + high);
 }
 
+/** The extent of a voxel along a unit vector. */
+double
+ExtentAlong(const Vector3 & direction, const Vector3 & spacing)
+{
+  return Dot({ std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2]) }, spacing);
+}
+
 /** A skeleton along the axes of the grid, branch by branch. */
 class Sections
 {
 public:
   Sections(const SkeletonGraph & graph, const ImageGeometry & geometry)
-    : m_Graph(graph)
-    , m_Excess(graph.positions.size(), kUnknown)
+    : m_Points(graph.positions.size())
+    , m_Spacing(geometry.spacing)
     , m_Diagonal(Length(geometry.spacing))
-    , m_Sites(graph.positions.size())
   {
-    for (std::size_t point = 0; point < graph.positions.size(); ++point)
+    m_Graph.positions = graph.positions;
+    for (Vector3 & position : m_Graph.positions)
     {
-      m_Sites[point] = { Times(PhysicalToLattice(geometry, graph.positions[point]), geometry.spacing),
-                         graph.radius[point] * graph.radius[point],
-                         {} };
+      position = Times(PhysicalToLattice(geometry, position), geometry.spacing);
+    }
+    m_Graph.radius = graph.radius;
+    m_Graph.nodePoints = graph.nodePoints;
+    m_Graph.nodeKinds = graph.nodeKinds;
+    m_Graph.branchNodes = graph.branchNodes;
+    TakePoints(graph);
+    m_Excess.assign(m_Graph.positions.size(), kUnknown);
+    for (std::size_t point = 0; point < m_Graph.positions.size(); ++point)
+    {
+      m_Sites.push_back({ m_Graph.positions[point], m_Graph.radius[point] * m_Graph.radius[point], {} });
     }
     PlaceAcrossBranches();
   }
@@ -56,21 +78,19 @@ public:
   std::vector<double>
   Radii(const VoxelShape & shape, const Vector3 & spacing)
   {
-    const std::vector<double> shares = BoundaryShares(shape, spacing, m_Sites);
+    const std::vector<BoundaryShare> shares = BoundaryShares(shape, spacing, m_Sites);
     for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
     {
-      if (IsRod(branch))
+      if (IsRod(branch, m_Graph.Branch(branch).size()))
       {
         const auto   points = m_Graph.Branch(branch);
-        const double radius = RodRadius(2 * shares[points.front()] / 3, m_Graph.BranchLength(branch));
+        const double radius = RodRadius(2 * shares[points.front()].volume / 3, m_Graph.BranchLength(branch));
         for (const ElementIndex point : points)
         {
           m_Excess[point] = radius - m_Graph.radius[point];
         }
         continue;
       }
-      // The second time it is known how wide the body is.
-      Measure(branch, shares);
       Measure(branch, shares);
     }
     FillNodes();
@@ -83,10 +103,10 @@ public:
       const ElementIndex point = m_Graph.nodePoints[node];
       if (m_Graph.nodeKinds[node] == NodeKind::Isolated)
       {
-        m_Excess[point] = RodRadius(2 * shares[point] / 3, 0) - m_Graph.radius[point];
+        m_Excess[point] = RodRadius(2 * shares[point].volume / 3, 0) - m_Graph.radius[point];
       }
     }
-    std::vector<double> radii = m_Graph.radius;
+    std::vector<double> radii(m_Graph.radius.begin(), m_Graph.radius.begin() + static_cast<std::ptrdiff_t>(m_Points));
     for (std::size_t point = 0; point < radii.size(); ++point)
     {
       const double radius = radii[point] + m_Excess[point];
@@ -97,6 +117,37 @@ public:
   }
 
 private:
+  /** The points of the branches, and between those that lie farther apart than slabs should be thick, more of them: a
+   *  core has few where a body is as wide as before. */
+  void
+  TakePoints(const SkeletonGraph & graph)
+  {
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    {
+      const auto points = graph.Branch(branch);
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        m_Graph.branchPoints.push_back(points[i]);
+        if (i + 1 == points.size() || IsRod(branch, points.size()))
+        {
+          continue;
+        }
+        const Vector3 a = m_Graph.positions[points[i]];
+        const Vector3 way = Minus(m_Graph.positions[points[i + 1]], a);
+        const double  extent = ExtentAlong(way, m_Spacing); // times its length
+        const auto    parts = extent > 0 ? static_cast<int>(std::ceil(kSlabsInExtent * Dot(way, way) / extent)) : 1;
+        for (int part = 1; part < parts; ++part)
+        {
+          const double at = static_cast<double>(part) / parts;
+          m_Graph.branchPoints.push_back(static_cast<ElementIndex>(m_Graph.positions.size()));
+          m_Graph.positions.push_back(AddScaled(a, at, way));
+          m_Graph.radius.push_back((1 - at) * m_Graph.radius[points[i]] + at * m_Graph.radius[points[i + 1]]);
+        }
+      }
+      m_Graph.branchOffsets.push_back(m_Graph.branchPoints.size());
+    }
+  }
+
   NodeKind
   Kind(std::size_t branch, std::size_t end) const
   {
@@ -105,9 +156,9 @@ private:
 
   /** Whether a branch is all of its component and has no section between its ends. */
   bool
-  IsRod(std::size_t branch) const
+  IsRod(std::size_t branch, std::size_t points) const
   {
-    return Kind(branch, 0) == NodeKind::Tip && Kind(branch, 1) == NodeKind::Tip && m_Graph.Branch(branch).size() < 3;
+    return Kind(branch, 0) == NodeKind::Tip && Kind(branch, 1) == NodeKind::Tip && points < 3;
   }
 
   /** The point before or after one of a branch; of a closed curve beyond its ends, too. */
@@ -146,25 +197,6 @@ private:
     return Kind(branch, 0) == NodeKind::Loop;
   }
 
-  /** Whether a point lies so near to a tip, for half a width of the body, that the slabs about it reach around the end:
-   *  the zigzag of the points tilts them. */
-  bool
-  IsNearTip(std::size_t branch, double fromFirst, double toLast, double halfWidth) const
-  {
-    const double near = std::min(halfWidth, 0.25 * (fromFirst + toLast));
-    return (Kind(branch, 0) == NodeKind::Tip && fromFirst < near) ||
-           (Kind(branch, 1) == NodeKind::Tip && toLast < near);
-  }
-
-  /** Half the greatest width, of an ellipse: its area over the least. */
-  double
-  HalfWidth(ElementIndex point) const
-  {
-    const double least = m_Graph.radius[point];
-    const double excess = std::isnan(m_Excess[point]) ? 0 : m_Excess[point];
-    return least > 0 ? (least + excess) * (least + excess) / least : 0;
-  }
-
   bool
   InJunctionBall(std::size_t branch, ElementIndex point) const
   {
@@ -191,7 +223,7 @@ private:
     std::vector<Vector3> means;
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      const double window = std::max(kWindowInDiagonals * m_Diagonal, m_Graph.radius[points[i]]);
+      const double window = std::max(kStraightInDiagonals * m_Diagonal, m_Graph.radius[points[i]]);
       Vector3      sum = m_Sites[points[i]].place;
       double       count = 1;
       std::size_t  before = i;
@@ -252,7 +284,7 @@ private:
       {
         nodeWeight[node] = std::max(nodeWeight[node], mean * mean);
       }
-      if (IsRod(branch))
+      if (IsRod(branch, m_Graph.Branch(branch).size()))
       {
         // One site takes all.
         WeightedSite & one = m_Sites[points.front()];
@@ -281,35 +313,128 @@ private:
     }
   }
 
+  double
+  ExtentAt(ElementIndex point) const
+  {
+    const double extent = ExtentAlong(m_Sites[point].axis, m_Spacing);
+    return extent > 0 ? extent : m_Diagonal; // tips and junctions have no axis
+  }
+
+  /** What lies about a point of a branch. */
+  struct Slab
+  {
+    double        at = 0; ///< of the point, along the branch
+    double        begin = 0;
+    double        end = 0;
+    double        length = 0; ///< across its axis; 0 where it is no section
+    BoundaryShare share;
+  };
+
+  /** The integrals of (1 - x^2) x^k from `begin` to `end`, as far as these lie within -1 and 1. */
+  static std::array<double, 5>
+  WeightsIn(double begin, double end)
+  {
+    std::array<double, 5> weights{};
+    double                sign = -1;
+    for (double x : { std::clamp(begin, -1.0, 1.0), std::clamp(end, -1.0, 1.0) })
+    {
+      double power = sign * x;
+      for (std::size_t k = 0; k < weights.size(); ++k, power *= x)
+      {
+        const auto n = static_cast<double>(k);
+        weights[k] += power / (n + 1) - power * x * x / (n + 3);
+      }
+      sign = 1;
+    }
+    return weights;
+  }
+
+  /** The area at a point: that of the parabola along the branch that fits best what slabs within a window hold, the
+   *  nearest counting most. A mean would widen narrow places and narrow wide ones. Where slabs lie to one side alone, a
+   *  parabola could be anything: there it is the mean. What a slab holds reaches as far as the voxels it is in, by
+   *  `extent` along the branch. 0 where there is no slab. */
+  static double
+  AreaAt(std::size_t at, const std::vector<Slab> & slabs, double extent)
+  {
+    const double          window = kWindowInExtents * extent;
+    std::array<double, 5> left{};
+    std::array<double, 3> right{};
+    double                before = 0;
+    double                behind = 0;
+    const auto            add = [&](const Slab & slab) {
+      if (slab.length <= 0)
+      {
+        return;
+      }
+      const auto place = [&](double way) { return (way - slabs[at].at) / window; };
+      before = std::max(before, -place(slab.at));
+      behind = std::max(behind, place(slab.at));
+      const double off = slab.share.volume > 0 ? slab.share.moment / slab.share.volume : 0;
+      const double middle = slab.at + std::clamp(off, -extent, extent);
+      const auto   room = WeightsIn(place(slab.begin), place(slab.end));
+      const auto   held = WeightsIn(place(middle - 0.5 * extent), place(middle + 0.5 * extent));
+      for (std::size_t k = 0; k < left.size(); ++k)
+      {
+        left[k] += window * slab.length / (slab.end - slab.begin) * room[k];
+      }
+      for (std::size_t k = 0; k < right.size(); ++k)
+      {
+        right[k] += window * slab.share.volume / extent * held[k];
+      }
+    };
+    const double reach = window + 1.5 * extent; // off its point, and half as long as a voxel
+    for (std::size_t i = at; i < slabs.size() && slabs[i].at - slabs[at].at <= reach; ++i)
+    {
+      add(slabs[i]);
+    }
+    for (std::size_t i = at; i > 0 && slabs[at].at - slabs[i - 1].at <= reach; --i)
+    {
+      add(slabs[i - 1]);
+    }
+    const auto [a, b, c, d, e] = left;
+    if (a > 0 && std::min(before, behind) >= 0.5)
+    {
+      // The parabola's value at 0, by Cramer's rule.
+      const double whole = a * (c * e - d * d) - b * (b * e - c * d) + c * (b * d - c * c);
+      const double area =
+        right[0] * (c * e - d * d) - b * (right[1] * e - d * right[2]) + c * (right[1] * d - c * right[2]);
+      if (whole > 1e-9 * a * a * a && area > 0)
+      {
+        return area / whole;
+      }
+    }
+    return a > 0 ? right[0] / a : 0;
+  }
+
   /** The excess of the section's radius over the ball's, at each point of a branch that lies outside the balls at its
    *  junctions. */
   void
-  Measure(std::size_t branch, const std::vector<double> & shares)
+  Measure(std::size_t branch, const std::vector<BoundaryShare> & shares)
   {
     const auto        points = m_Graph.Branch(branch);
     const bool        isLoop = IsLoop(branch);
     const std::size_t count = isLoop ? points.size() - 1 : points.size();
     // Of a closed curve three times around, so that windows need not end.
-    const std::size_t   rounds = isLoop ? 3 : 1;
-    const double        whole = m_Graph.BranchLength(branch);
-    std::vector<double> way(1, 0);
-    std::vector<double> length(1, 0); // sums before each point
-    std::vector<double> volume(1, 0);
+    const std::size_t rounds = isLoop ? 3 : 1;
+    std::vector<Slab> slabs;
+    double            way = 0;
+    double            behind = 0;
     for (std::size_t i = 0; i < rounds * count; ++i)
     {
       const std::size_t at = i % count;
       const Vector3 &   here = m_Sites[points[at]].place;
       const Vector3 &   next = m_Sites[points[Step(points, at, true, isLoop)]].place;
       const Vector3 &   before = m_Sites[points[Step(points, at, false, isLoop)]].place;
-      const bool        isSection = (isLoop || (at > 0 && at + 1 < count)) && !InJunctionBall(branch, points[at]) &&
-                             !IsNearTip(branch, way.back(), whole - way.back(), HalfWidth(points[at]));
-      const double slab = 0.5 * Dot(Minus(next, before), m_Sites[points[at]].axis);
-      way.push_back(way.back() + Distance(here, next));
-      length.push_back(length.back() + (isSection ? slab : 0));
-      volume.push_back(volume.back() + (isSection ? shares[points[at]] : 0));
+      const bool        isSection = (isLoop || (at > 0 && at + 1 < count)) && !InJunctionBall(branch, points[at]);
+      const double      ahead = 0.5 * Distance(here, next);
+      slabs.push_back({ way,
+                        way - behind,
+                        way + ahead,
+                        isSection ? 0.5 * Dot(Minus(next, before), m_Sites[points[at]].axis) : 0,
+                        shares[points[at]] });
+      way += 2 * ahead;
+      behind = ahead;
     }
-    std::size_t       first = 0;
-    std::size_t       last = 0;
     const std::size_t begin = isLoop ? count : 0;
     for (std::size_t i = begin; i < begin + count; ++i)
     {
@@ -318,22 +443,9 @@ private:
       {
         continue;
       }
-      const double window = std::max(kWindowInDiagonals * m_Diagonal, m_Graph.radius[point]);
-      first = i;
-      last = i;
-      while (first > 0 && way[i] - way[first - 1] <= window)
+      if (const double area = AreaAt(i, slabs, ExtentAt(point)); area > 0)
       {
-        --first;
-      }
-      while (last + 1 < rounds * count && way[last + 1] - way[i] <= window)
-      {
-        ++last;
-      }
-      const double stretch = length[last + 1] - length[first];
-      const double content = volume[last + 1] - volume[first];
-      if (stretch > 0 && content > 0)
-      {
-        m_Excess[point] = std::sqrt(content / (std::numbers::pi * stretch)) - m_Graph.radius[point];
+        m_Excess[point] = std::sqrt(area / std::numbers::pi) - m_Graph.radius[point];
       }
     }
     if (isLoop)
@@ -414,8 +526,10 @@ private:
     }
   }
 
-  const SkeletonGraph &     m_Graph;
+  SkeletonGraph             m_Graph;  ///< nodes, branches and radii; positions in mm along the axes of the grid
+  std::size_t               m_Points; ///< that are in the skeleton itself; the others follow
   std::vector<double>       m_Excess; ///< per point, of the section's radius over the ball's; NaN while unknown
+  Vector3                   m_Spacing;
   double                    m_Diagonal;
   std::vector<WeightedSite> m_Sites; ///< per point
 };
