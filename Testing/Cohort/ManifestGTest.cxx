@@ -203,7 +203,7 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
   std::vector<std::filesystem::path>           passedOver;
   for (const CohortCase & one : FindCases({ m_Folder.Path() }, {}, &passedOver))
   {
-    found[one.id] = one.scan.lexically_relative(m_Folder.Path());
+    found[one.id] = std::filesystem::path(one.scan).lexically_relative(m_Folder.Path());
   }
   EXPECT_EQ(found,
             (std::map<std::string, std::filesystem::path>{ { "one/deep/seg", "one/deep/seg.nrrd" },

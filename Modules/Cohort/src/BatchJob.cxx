@@ -324,8 +324,7 @@ CaseList(const BatchOptions & options)
   std::size_t number = 0;
   for (const CohortCase & one : FindCases(options.inputs, options.output))
   {
-    text += std::to_string(++number) + "\t" + one.folder + "\t" + InOneLine(one.id) + "\t" +
-            InOneLine(one.scan.string()) + "\n";
+    text += std::to_string(++number) + "\t" + one.folder + "\t" + InOneLine(one.id) + "\t" + InOneLine(one.scan) + "\n";
   }
   return text;
 }

@@ -148,7 +148,7 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   job.folder = options.output / one.folder;
   auto values = one.values;
   values.insert(options.values.begin(), options.values.end()); // those of the case stay
-  RequireTaken(values, options.command, one.scan.string() + ": ");
+  RequireTaken(values, options.command, one.scan + ": ");
   job.arguments = CommandLineOf(job, options.command);
   if (options.command == CommandId::Core)
   {

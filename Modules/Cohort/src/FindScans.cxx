@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <glob.h>
+#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace voxelcore
 {
@@ -21,10 +23,10 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/** A scan and the parts of its path that may go into its id. */
+/** A scan's path and the parts of it that may go into its id. Of tens of thousands, paths are kept as text. */
 struct Found
 {
-  fs::path    scan;
+  std::string scan;
   std::string id;
 };
 
@@ -94,10 +96,10 @@ RefuseUnreadable(const fs::path & path, const std::error_code & error)
 
 /** All scans below a folder, without those below `output`; and what is none. */
 void
-Walk(const fs::path &        folder,
-     const fs::path &        output,
-     std::vector<fs::path> & scans,
-     std::vector<fs::path> & passedOver)
+Walk(const fs::path &           folder,
+     const fs::path &           output,
+     std::vector<std::string> & scans,
+     std::vector<fs::path> &    passedOver)
 {
   std::error_code notThere;
   if (fs::equivalent(folder, output, notThere))
@@ -110,27 +112,28 @@ Walk(const fs::path &        folder,
   }
   if (IsZarr(folder))
   {
-    scans.push_back(folder);
+    scans.push_back(folder.string());
     return;
   }
-  std::vector<fs::path> entries;
-  std::vector<fs::path> images;
-  std::error_code       error;
+  std::vector<std::string> names;
+  std::vector<std::string> images;
+  std::error_code          error;
   for (const auto & entry : fs::directory_iterator(folder, error))
   {
-    const std::string name = entry.path().filename().string();
+    std::string name = entry.path().filename().string();
     if (!name.starts_with('.'))
     {
-      entries.push_back(entry.path());
+      names.push_back(std::move(name));
     }
   }
   if (error)
   {
     RefuseUnreadable(folder, error);
   }
-  std::sort(entries.begin(), entries.end());
-  for (const fs::path & entry : entries)
+  std::sort(names.begin(), names.end());
+  for (const std::string & name : names)
   {
+    const fs::path entry = folder / name;
     if (fs::is_directory(entry, error))
     {
       if (!fs::is_symlink(entry, error)) // a link upwards would never end
@@ -140,11 +143,11 @@ Walk(const fs::path &        folder,
     }
     else if (IsVolume(entry))
     {
-      scans.push_back(entry);
+      scans.push_back(entry.string());
     }
     else if (IsImage(entry))
     {
-      images.push_back(entry);
+      images.push_back(entry.string());
     }
     else if (!BelongsToAScan(entry))
     {
@@ -157,15 +160,15 @@ Walk(const fs::path &        folder,
   }
   else if (!images.empty())
   {
-    scans.push_back(folder);
+    scans.push_back(folder.string());
   }
 }
 
-std::vector<fs::path>
+std::vector<std::string>
 MatchesOf(const fs::path & pattern)
 {
-  glob_t                matches{};
-  std::vector<fs::path> paths;
+  glob_t                   matches{};
+  std::vector<std::string> paths;
   if (glob(pattern.c_str(), 0, nullptr, &matches) == 0)
   {
     paths.assign(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
@@ -191,16 +194,16 @@ AddInput(const fs::path &        input,
   std::error_code error;
   if (fs::is_directory(input, error))
   {
-    const fs::path        folder = input.has_filename() ? input : input.parent_path();
-    std::vector<fs::path> scans;
+    const fs::path           folder = input.has_filename() ? input : input.parent_path();
+    std::vector<std::string> scans;
     Walk(folder, output, scans, passedOver);
     if (scans.empty())
     {
       throw InputError(input.string() + ": no scan in this folder");
     }
-    for (const fs::path & scan : scans)
+    for (const std::string & scan : scans)
     {
-      found.push_back({ scan, scan == folder ? ScanName(scan) : IdBelow(folder, scan) });
+      found.push_back({ scan, scan == folder.string() ? ScanName(scan) : IdBelow(folder, scan) });
     }
     return;
   }
@@ -210,32 +213,32 @@ AddInput(const fs::path &        input,
   }
   if (!error)
   {
-    found.push_back({ input, ScanName(input) });
+    found.push_back({ input.string(), ScanName(input) });
     return;
   }
-  const std::vector<fs::path> matches = MatchesOf(input);
+  const std::vector<std::string> matches = MatchesOf(input);
   if (matches.empty())
   {
     throw InputError(input.string() + ": no such file, and nothing that matches");
   }
-  for (const fs::path & match : matches)
+  for (const std::string & match : matches)
   {
     found.push_back({ match, ScanName(match) });
   }
 }
 
-fs::path
-Normal(const fs::path & path)
+std::string
+Normal(const std::string & path)
 {
   std::error_code error; // of no path at all
-  return fs::absolute(path, error).lexically_normal();
+  return fs::absolute(path, error).lexically_normal().string();
 }
 
 /** The id with the file's whole name. */
 std::string
-WithFileName(const Found & one)
+WithFileName(const std::string & id, const std::string & scan)
 {
-  return (fs::path(one.id).parent_path() / one.scan.filename()).string();
+  return (fs::path(id).parent_path() / fs::path(scan).filename()).string();
 }
 
 /** Scans of one name get their file's whole name, then the folders above, until they differ. */
@@ -260,20 +263,20 @@ TellApart(std::vector<Found> & found)
   };
   for (const std::size_t i : doubled())
   {
-    found[i].id = WithFileName(found[i]);
+    found[i].id = WithFileName(found[i].id, found[i].scan);
   }
   for (const std::size_t i : doubled())
   {
-    found[i].id = Normal(found[i].scan).string();
+    found[i].id = Normal(found[i].scan);
   }
 }
 
 /** A scan that has results in `output` under a name that it could bear keeps that name, whatever others have come. */
 void
-KeepNames(std::vector<Found> &            found,
-          const std::vector<Found> &      plain,
-          const std::vector<CohortCase> & named,
-          const fs::path &                output)
+KeepNames(std::vector<Found> &             found,
+          const std::vector<std::string> & plain,
+          const std::vector<CohortCase> &  named,
+          const fs::path &                 output)
 {
   std::set<std::string> taken;
   for (const CohortCase & one : named)
@@ -286,8 +289,8 @@ KeepNames(std::vector<Found> &            found,
   }
   for (std::size_t i = 0; i < found.size(); ++i)
   {
-    const fs::path scan = Normal(found[i].scan);
-    const auto     isItsOwn = [&](const std::string & id) {
+    const std::string scan = Normal(found[i].scan);
+    const auto        isItsOwn = [&](const std::string & id) {
       const auto record = ReadCaseRecord(output / CaseFolder(id));
       return record && Normal(record->scan) == scan;
     };
@@ -295,7 +298,7 @@ KeepNames(std::vector<Found> &            found,
     {
       continue;
     }
-    for (const std::string & id : { plain[i].id, WithFileName(plain[i]), scan.string() })
+    for (const std::string & id : { plain[i], WithFileName(plain[i], found[i].scan), scan })
     {
       if (!taken.contains(CaseFolder(id)) && isItsOwn(id))
       {
@@ -313,14 +316,14 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
 {
   std::vector<CohortCase> cases;
   std::vector<Found>      found;
-  std::set<fs::path>      known;
+  std::set<std::string>   known;
   std::vector<fs::path>   others;
   for (const fs::path & input : inputs)
   {
     if (IsManifest(input) && !fs::is_directory(input))
     {
-      const auto rows = ReadManifest(input);
-      cases.insert(cases.end(), rows.begin(), rows.end());
+      auto rows = ReadManifest(input);
+      cases.insert(cases.end(), std::move_iterator(rows.begin()), std::move_iterator(rows.end()));
     }
     else
     {
@@ -332,7 +335,12 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
   {
     *passedOver = std::move(others);
   }
-  const std::vector<Found> plain = found;
+  known.clear();
+  std::vector<std::string> plain;
+  for (const Found & one : found)
+  {
+    plain.push_back(one.id);
+  }
   TellApart(found);
   if (!output.empty())
   {
@@ -340,7 +348,8 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
   }
   for (Found & one : found)
   {
-    cases.push_back({ one.id, CaseFolder(one.id), one.scan, {} });
+    std::string folder = CaseFolder(one.id);
+    cases.push_back({ std::move(one.id), std::move(folder), std::move(one.scan), {} });
   }
   std::set<std::string> folders;
   for (const CohortCase & one : cases)

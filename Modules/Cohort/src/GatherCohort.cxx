@@ -46,7 +46,7 @@ FindRecords(const fs::path & folder, const std::vector<CohortCase> & expected, c
   {
     CaseRecord & record = records[one.folder];
     record.id = one.id;
-    record.scan = one.scan.string();
+    record.scan = one.scan;
     const auto known = reasons.find(one.folder);
     record.reason = known != reasons.end() ? known->second : kNoResult;
   }

@@ -201,7 +201,7 @@ CaseFrom(const CsvRow &                  row,
     }
     else if (roles[i].kind == Column::Scan)
     {
-      one.scan = text.empty() ? fs::path() : (folder / text).lexically_normal();
+      one.scan = text.empty() ? "" : (folder / text).lexically_normal().string();
     }
     else if (roles[i].kind == Column::Option && !text.empty())
     {

@@ -291,7 +291,7 @@ Scheduler::Record(const Running & running, const ChildEnd & end)
   const CaseJob job = JobOf(running.job);
   CaseRecord    record;
   record.id = job.one.id;
-  record.scan = job.one.scan.string();
+  record.scan = job.one.scan;
   record.done = true;
   record.seconds = end.seconds;
   record.warnings = LinesOf(end.messages);
@@ -307,7 +307,7 @@ Scheduler::Record(const Running & running, const ChildEnd & end)
     const std::string digest = ScanSha256(job.one.scan, job.reading);
     if (seen != digest || running.key != KeyOf(job, digest))
     {
-      return job.one.scan.string() + ": changed while the case ran; run the batch again";
+      return job.one.scan + ": changed while the case ran; run the batch again";
     }
   }
   catch (const InputError & error)
@@ -329,7 +329,7 @@ Scheduler::Fail(std::size_t job, const std::string & key, const std::string & re
   const CaseJob one = JobOf(job);
   CaseRecord    record;
   record.id = one.one.id;
-  record.scan = one.one.scan.string();
+  record.scan = one.one.scan;
   record.key = key;
   record.reason = reason;
   record.seconds = seconds;

@@ -14,10 +14,10 @@ namespace voxelcore
 /** One scan and what to do with it. */
 struct CohortCase
 {
-  std::string           id;     ///< as given, or made of the scan's name
-  std::string           folder; ///< "sub-..." below the output folder, CaseFolder() of the id
-  std::filesystem::path scan;
-  ParameterValues       values; ///< options of its command that hold for this case alone
+  std::string     id;     ///< as given, or made of the scan's name
+  std::string     folder; ///< "sub-..." below the output folder, CaseFolder() of the id
+  std::string     scan;   ///< path; as text, a third of what one that is taken apart takes
+  ParameterValues values; ///< options of its command that hold for this case alone
 };
 
 /** Whether a batch passes this option on to the command that a case is: `core`, `roots` or `thickness`. */
