@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <iostream>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
@@ -276,6 +277,90 @@ TEST(CertifiedSkeleton, ARefinedOneHasTheRadiusOfTheSmoothBodyAndTheBranchesOfTh
   // Without refineCores the cores are those of the voxels.
   EXPECT_EQ(refined.cores[0].core.core.positions, plain.cores[0].core.core.positions);
   EXPECT_FALSE(refined.cores[0].numbers.refined.has_value());
+}
+
+/** Half a torus about the middle of 44 x 44 x 7 voxels of 1 x 1 x 2 mm, with round ends. */
+class HalfTorus : public SurfaceEstimate
+{
+public:
+  /** Of a shape whose voxel (0,0,0) lies there. */
+  explicit HalfTorus(const SurfaceSource::Place & place)
+    : m_Corner{ 1.0 * place[0], 1.0 * place[1], 2.0 * place[2] }
+  {}
+
+  static double
+  FromAxis(const Vector3 & place, Vector3 & nearest)
+  {
+    const Vector3 away = Minus(place, { 22.3, 8.1, 7.2 });
+    const double  angle = std::clamp(std::atan2(away[1], away[0]), 0.0, std::numbers::pi);
+    const double  at = away[1] < 0 ? (away[0] < 0 ? std::numbers::pi : 0) : angle;
+    nearest = { 22.3 + kLarge * std::cos(at), 8.1 + kLarge * std::sin(at), 7.2 };
+    return Distance(place, nearest);
+  }
+
+  SurfacePoint
+  Project(const Vector3 & place, double reach) const override
+  {
+    Vector3       nearest{};
+    const Vector3 inScan = AddScaled(place, 1, m_Corner);
+    const double  away = FromAxis(inScan, nearest);
+    if (away == 0 || std::abs(away - kSmall) > reach)
+    {
+      return {};
+    }
+    const Vector3 normal = AddScaled({}, 1 / away, Minus(inScan, nearest));
+    return { Minus(AddScaled(nearest, kSmall, normal), m_Corner), normal, true };
+  }
+
+  static VoxelShape
+  Voxels()
+  {
+    VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 44, 44, 7 } });
+    for (std::int32_t z = 0; z < 7; ++z)
+    {
+      for (std::int32_t y = 0; y < 44; ++y)
+      {
+        for (std::int32_t x = 0; x < 44; ++x)
+        {
+          Vector3 nearest{};
+          if (FromAxis({ x + 0.5, y + 0.5, 2 * z + 1.0 }, nearest) < kSmall)
+          {
+            shape.Insert(x, y, z);
+          }
+        }
+      }
+    }
+    return shape;
+  }
+
+  static constexpr double kLarge = 15;
+  static constexpr double kSmall = 4;
+
+private:
+  Vector3 m_Corner;
+};
+
+TEST(CertifiedSkeleton, ARefinedOnesRadiiAreThoseOfThePointsThatAreGiven)
+{
+  const ImageGeometry grid = Grid({ 1, 1, 2 });
+  CertifiedRequest    request = RefinedSkeleton({ "0" }, grid.spacing);
+  request.surface = [](const VoxelShape &, const SurfaceSource::Place & place, const ProgressCallback &) {
+    return SurfaceSource::Estimate(std::make_shared<HalfTorus>(place));
+  };
+  const SkeletonGraph graph = ComputeCertified(HalfTorus::Voxels(), grid, request).skeleton->skeleton.graph;
+  ASSERT_EQ(graph.BranchCount(), 1U);
+  ASSERT_GT(graph.positions.size(), 30U);
+  const auto ballAt = [&](const Vector3 & position) {
+    Vector3 nearest{};
+    return HalfTorus::kSmall - HalfTorus::FromAxis(Times(PhysicalToLattice(grid, position), grid.spacing), nearest);
+  };
+  double changed = 0;
+  for (std::size_t point = 0; point < graph.positions.size(); ++point)
+  {
+    EXPECT_NEAR(graph.radius[point], ballAt(graph.positions[point]), 0.03) << point;
+    changed = std::max(changed, std::abs(ballAt(graph.positions[point]) - ballAt(graph.medial[point])));
+  }
+  EXPECT_GT(changed, 0.06); // by smoothing
 }
 
 TEST(CertifiedSkeleton, ARefinedOneDoesNotDependOnTheCoresBesideIt)

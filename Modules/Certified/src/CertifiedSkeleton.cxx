@@ -13,6 +13,7 @@
 #include "voxelcore/Enclosure.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/OpenShape.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/SimplePairCollapse.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
@@ -97,6 +98,33 @@ TakeInside(SkeletonGraph & graph, std::size_t first, const OpenShape & inside)
       }
     }
   }
+}
+
+/** The same for balls that touch the smooth surface. Where a tip was measured is not known: its ball is the one that
+ *  the surface tells. Of other points what is known beyond that, how thick walls truly are, goes on with them. */
+void
+MeasureBallsAnew(SkeletonGraph &              graph,
+                 const std::vector<Vector3> & before,
+                 const ImageGeometry &        geometry,
+                 const SurfaceDistance &      toSurface)
+{
+  std::vector<std::uint8_t> isTip(graph.positions.size(), 0);
+  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
+  {
+    isTip[graph.nodePoints[node]] = graph.nodeKinds[node] == NodeKind::Tip ? 1 : 0;
+  }
+  const auto distanceAt = [&](const Vector3 & place) { return toSurface.From(PhysicalToLattice(geometry, place)); };
+  RunEach(graph.positions.size(), [&](std::size_t point) {
+    double & radius = graph.radius[point];
+    if (isTip[point] != 0)
+    {
+      radius = distanceAt(graph.positions[point]);
+    }
+    else if (graph.positions[point] != before[point])
+    {
+      radius = std::max(0.0, radius + distanceAt(graph.positions[point]) - distanceAt(before[point]));
+    }
+  });
 }
 
 /** The voxels in the balls of a core. */
@@ -272,7 +300,11 @@ MeasureCurves(const BurnedCurves &    burned,
     FitBranches(graph, window, reach, inside);
   }
   graph.sectionRadius = CrossSectionRadii(graph, voxels, shape.geometry);
-  if (!request.refined) // else balls are those of the smooth surface, which is not known here
+  if (burned.toSurface)
+  {
+    MeasureBallsAnew(graph, measured, shape.geometry, *burned.toSurface);
+  }
+  else if (!request.refined) // else balls are those of a smooth surface that is not known here
   {
     MeasureBallsAnew(graph, measured, FarthestEnd(burned.curves), inside);
   }
@@ -313,7 +345,7 @@ SkeletonOf(const PlacedCore &       core,
   StagePlan            plan(progress, { 0.98, 0.02 });
   const BodyFrame      frame(shape.geometry, shape.box);
   const CertifiedShape there = InFrame(shape, frame);
-  MedialComplex        surface = core.core;
+  MedialComplex surface = core.core;
   frame.Enter(surface.positions);
   const BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);

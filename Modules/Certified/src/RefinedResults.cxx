@@ -19,6 +19,8 @@ namespace voxelcore
 namespace
 {
 
+constexpr double kSamePlace = 1e-6; ///< voxels; more than ways to LPS mm and back lose
+
 /** Compares what was refined with the shape, and tells how far it was moved. */
 RefinedNumbers
 RequireRefined(const RefinedCore & refined,
@@ -139,7 +141,7 @@ WaysInwards(const MedialComplex & curves, double reach)
 }
 
 /** Puts the curves where refinement has moved them. Ends do not draw back: the surface about a tip shrinks when it is
- *  smoothed, the branch does not. */
+ *  smoothed, the branch does not. A radius is that of the place where the point is put. */
 void
 MoveCurves(const RefinedCore & refined, const VoxelShape & voxels, const CertifiedShape & shape, BurnedCurves & burned)
 {
@@ -166,8 +168,15 @@ MoveCurves(const RefinedCore & refined, const VoxelShape & voxels, const Certifi
       end = end != position && isInside(beyond) ? beyond : place;
       position = place;
     }
+    curves.radius[v] = refined.core.radius[v];
+    const Vector3 & measured = refined.core.positions[v];
+    const Vector3   given = PhysicalToLattice(shape.geometry, position);
+    if (Length(Minus(given, measured)) > kSamePlace)
+    {
+      const double change = burned.toSurface->From(given) - burned.toSurface->From(measured);
+      curves.radius[v] = std::max(0.0, curves.radius[v] + change);
+    }
   }
-  curves.radius = refined.core.radius;
 }
 
 /** At which each core of the task is pruned, in mm. */
@@ -233,6 +242,8 @@ RefineAndCertify(const VoxelShape &       voxels,
   const std::vector<double> ascending = AscendingBeyond(-HUGE_VAL, thresholdsMm);
   std::vector<RefinedCore>  refined;
   bool                      ofLabels = false;
+
+  std::shared_ptr<const SurfaceDistance> toSurface;
   {
     const auto      surface = source(voxels, {}, PartOfProgress(progress, "surface", 0.05, 0.35));
     RefinementInput input{ &voxels,
@@ -248,6 +259,10 @@ RefineAndCertify(const VoxelShape &       voxels,
                            [&] { FreeWhatIsRefined(parts, IsByTolerance(task)); } };
     ofLabels = surface->IsOfLabels();
     refined = RefineCore(input, ascending, PartOfProgress(progress, "refine", 0.35, 1));
+    if (task.curves)
+    {
+      toSurface = std::make_shared<const SurfaceDistance>(surface, parts.boundary, shape.geometry.spacing);
+    }
   }
   std::vector<CertifiedCore> results;
   for (std::size_t i = 0; i < task.asked.size(); ++i)
@@ -266,6 +281,7 @@ RefineAndCertify(const VoxelShape &       voxels,
   }
   if (task.curves)
   {
+    task.curves->toSurface = toSurface;
     MoveCurves(refined.back(), voxels, shape, *task.curves);
   }
   return results;

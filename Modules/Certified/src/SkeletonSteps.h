@@ -3,6 +3,9 @@
 
 #include "voxelcore/CertifiedSkeleton.h"
 #include "voxelcore/CurveSkeleton.h"
+#include "voxelcore/SurfaceDistance.h"
+
+#include <memory>
 
 namespace voxelcore
 {
@@ -10,8 +13,9 @@ namespace voxelcore
 /** What a core has burned to, in LPS mm. */
 struct BurnedCurves
 {
-  CurveSkeleton   curves;
-  TopologyNumbers topology;
+  CurveSkeleton                          curves;
+  TopologyNumbers                        topology;
+  std::shared_ptr<const SurfaceDistance> toSurface; ///< to which they have been refined; none: they have not
 };
 
 /** Of a shape that was made to go on beyond the border of its scan, what it was. */
