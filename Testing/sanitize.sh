@@ -62,10 +62,9 @@ for module in ${tested//;/ }; do
 done
 left_out="WritingIsFastBesideComputing|AreRefusedByThePythonModule" # the one asks for a time; Python is not built so
 if [[ ";$tested;" == *";Applications;"* ]]; then
-  targets+=(Applications/slicer/all voxelcore_faulty VoxelCoreVtkPipelineExample_faulty
-    VoxelCoreItkPipelineExample_faulty)
+  targets+=(Applications/slicer/all voxelcore_faulty VoxelCoreVtkWay_faulty VoxelCoreItkWay_faulty)
 else
-  left_out+="|AreRefusedByProgramAndPipelines"
+  left_out+="|AreRefusedBy(TheProgram|FiltersOf)"
 fi
 cmake --build "$build" --target "${targets[@]}"
 

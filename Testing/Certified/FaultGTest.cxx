@@ -1,8 +1,13 @@
 // Linked with SeededFault.cxx: whatever a lower room gets wrong, there is no result.
 
 #include "voxelcore/Certified.h"
+#include "voxelcore/ComplexTopology.h"
+#include "voxelcore/Enclosure.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/OctantScan.h"
+#include "voxelcore/ShapeTopology.h"
 
+#include <array>
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -122,6 +127,26 @@ TEST(SeededFaults, AreRefusedWhereACoreIsPrunedOnRefinedOrNot)
     setenv("VOXELCORE_SEEDED_FAULT", "tolerance", 1);
     EXPECT_THROW(byTolerance(), CertificateError) << refined;
   }
+  unsetenv("VOXELCORE_SEEDED_FAULT");
+}
+
+TEST(SeededFaults, InSharedWaysOfWorkingAreSeenByThoseWhoCheck)
+{
+  unsetenv("VOXELCORE_SEEDED_FAULT");
+  const VoxelShape                         shape = PlateWithARod();
+  const std::vector<std::array<double, 3>> places{ { 3.5, 4.5, 1.5 }, { 9.5, 9.5, 9.5 } };
+  CellComplex                              edge;
+  edge.vertexCount = 2;
+  edge.edges = { { 0, 1 } };
+  ASSERT_TRUE(LieInside(shape, places));
+  ASSERT_NO_THROW(ScanOctants(shape));
+  ASSERT_EQ(ComputeShapeTopology(shape), ComputeComplexTopology(edge)); // either is one piece without a hole
+  setenv("VOXELCORE_SEEDED_FAULT", "parts", 1);
+  EXPECT_FALSE(LieInside(shape, places));
+  setenv("VOXELCORE_SEEDED_FAULT", "each", 1);
+  EXPECT_THROW(ScanOctants(shape), CertificateError);
+  setenv("VOXELCORE_SEEDED_FAULT", "both", 1);
+  EXPECT_FALSE(ComputeShapeTopology(shape) == ComputeComplexTopology(edge));
   unsetenv("VOXELCORE_SEEDED_FAULT");
 }
 

@@ -5,13 +5,19 @@
 #include "voxelcore/TolerancePruning.h"
 #include "voxelcore/CurveSkeleton.h"
 #include "voxelcore/FineBracket.h"
+#include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/LocalThickness.h"
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Refinement.h"
 #include "voxelcore/SmoothBalls.h"
+#include "voxelcore/SpacingWeights.h"
 #include "voxelcore/VoxelCore.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -118,6 +124,13 @@ DamageCore(MedialComplex & core)
 #define VOXELCORE_SMOOTH_BRACKET                                                                                  \
   "_ZN9voxelcore13SmoothBracketERKNS_10VoxelShapeERKNS_14SpacingWeightsERKSt8functionIFbSt17basic_string_viewIcS" \
   "t11char_traitsIcEEdEE"
+// What makers and checkers share (Modules/README.md)
+#define VOXELCORE_WEIGHTS "_ZN9voxelcore21ComputeSpacingWeightsERKSt5arrayIdLm3EE"
+#define VOXELCORE_IMAGE_WEIGHTS "_ZN9voxelcore21ComputeLatticeWeightsERKNS_13ImageGeometryE"
+#define VOXELCORE_PLACE "_ZN9voxelcore17PhysicalToLatticeERKNS_13ImageGeometryERKSt5arrayIdLm3EE"
+#define VOXELCORE_BOTH "_ZN9voxelcore7RunBothEbRKSt8functionIFvvEES4_"
+#define VOXELCORE_PARTS "_ZN9voxelcore10RunInPartsEbmRKSt8functionIFvmmEE"
+#define VOXELCORE_EACH "_ZN9voxelcore7RunEachEmRKSt8functionIFvmEES4_"
 // NOLINTEND
 
 MedialComplex
@@ -242,6 +255,10 @@ FaultyRefine(const RefinementInput & input, const std::vector<double> & threshol
   if (IsSeeded("refinement") && !refined.empty())
   {
     Damage(refined.back().core);
+  }
+  if (IsSeeded("ball") && !refined.empty() && !refined.back().core.radius.empty())
+  {
+    refined.back().core.radius.back() += 4;
   }
   if (IsSeeded("moves") && !refined.empty() && !refined.back().core.positions.empty())
   {
@@ -384,6 +401,79 @@ double
 FaultyNearestGap(const BallTree * tree, const std::array<double, 3> & place, double enough, std::size_t & nearest)
 {
   return (IsSeeded("gap") ? 0.6 : 1) * TrueNearestGap(tree, place, enough, nearest);
+}
+
+// Functions that makers and checkers share.
+SpacingWeights
+TrueWeights(const std::array<double, 3> &) asm("__real_" VOXELCORE_WEIGHTS);
+SpacingWeights
+FaultyWeights(const std::array<double, 3> &) asm("__wrap_" VOXELCORE_WEIGHTS);
+SpacingWeights
+FaultyWeights(const std::array<double, 3> & spacing)
+{
+  SpacingWeights weights = TrueWeights(spacing);
+  weights.weight[0] += IsSeeded("weights") ? 1 : 0;
+  return weights;
+}
+
+SpacingWeights
+TrueImageWeights(const ImageGeometry &) asm("__real_" VOXELCORE_IMAGE_WEIGHTS);
+SpacingWeights
+FaultyImageWeights(const ImageGeometry &) asm("__wrap_" VOXELCORE_IMAGE_WEIGHTS);
+SpacingWeights
+FaultyImageWeights(const ImageGeometry & geometry)
+{
+  SpacingWeights weights = TrueImageWeights(geometry);
+  weights.weight[0] += IsSeeded("weights") ? 1 : 0;
+  return weights;
+}
+
+std::array<double, 3>
+TruePlace(const ImageGeometry &, const std::array<double, 3> &) asm("__real_" VOXELCORE_PLACE);
+std::array<double, 3>
+FaultyPlace(const ImageGeometry &, const std::array<double, 3> &) asm("__wrap_" VOXELCORE_PLACE);
+std::array<double, 3>
+FaultyPlace(const ImageGeometry & geometry, const std::array<double, 3> & point)
+{
+  std::array<double, 3> place = TruePlace(geometry, point);
+  place[0] += IsSeeded("place") ? 0.25 : 0;
+  return place;
+}
+
+void
+TrueBoth(bool, const std::function<void()> &, const std::function<void()> &) asm("__real_" VOXELCORE_BOTH);
+void
+FaultyBoth(bool, const std::function<void()> &, const std::function<void()> &) asm("__wrap_" VOXELCORE_BOTH);
+void
+FaultyBoth(bool worthIt, const std::function<void()> & first, const std::function<void()> & second)
+{
+  IsSeeded("both") ? first() : TrueBoth(worthIt, first, second);
+}
+
+void
+TrueParts(bool, std::size_t, const std::function<void(std::size_t, std::size_t)> &) asm("__real_" VOXELCORE_PARTS);
+void
+FaultyParts(bool, std::size_t, const std::function<void(std::size_t, std::size_t)> &) asm("__wrap_" VOXELCORE_PARTS);
+void
+FaultyParts(bool worthIt, std::size_t count, const std::function<void(std::size_t, std::size_t)> & work)
+{
+  TrueParts(worthIt, count - (IsSeeded("parts") && count > 0 ? 1 : 0), work);
+}
+
+void
+TrueEach(std::size_t,
+         const std::function<void(std::size_t)> &,
+         const std::function<void(std::size_t)> &) asm("__real_" VOXELCORE_EACH);
+void
+FaultyEach(std::size_t,
+           const std::function<void(std::size_t)> &,
+           const std::function<void(std::size_t)> &) asm("__wrap_" VOXELCORE_EACH);
+void
+FaultyEach(std::size_t                              count,
+           const std::function<void(std::size_t)> & work,
+           const std::function<void(std::size_t)> & done)
+{
+  TrueEach(count - (IsSeeded("each") && count > 0 ? 1 : 0), work, done);
 }
 
 } // namespace voxelcore

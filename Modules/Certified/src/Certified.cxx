@@ -1,6 +1,7 @@
 #include "voxelcore/Certified.h"
 
 #include "CertifiedWork.h"
+#include "CheckedLattice.h"
 #include "Frames.h"
 #include "RequestStages.h"
 #include "voxelcore/ShapeTopology.h"
@@ -116,8 +117,11 @@ ComputeCertified(VoxelShape               shape,
   shape = CropToVoxels(std::move(shape));
   const BodyFrame frame(geometry, shape.Box());
   shape = MovedTo({ 0, 0, 0 }, shape);
-  const RootChoice       root = complete.skeleton ? complete.skeleton->branches.root : RootChoice();
-  const CertifiedRequest there = InFrame(std::move(complete), frame, ComputeLatticeWeights(geometry));
+  const RootChoice     root = complete.skeleton ? complete.skeleton->branches.root : RootChoice();
+  const SpacingWeights weights = ComputeLatticeWeights(geometry);
+  RequireTrueLattice(weights, geometry, frame.Leave(shape.Box()), request.name);
+  RequireTrueLattice(weights, frame.Geometry(), shape.Box(), request.name);
+  const CertifiedRequest there = InFrame(std::move(complete), frame, weights);
   const bool             mayBeCut = there.scan && there.skeleton && there.skeleton->border != BorderEnds::Closed;
   CertifiedResult        result = mayBeCut ? RunUpToBorder(std::move(shape), frame.Geometry(), there, forward)
                                            : RunCertified(std::move(shape), frame.Geometry(), there, forward);

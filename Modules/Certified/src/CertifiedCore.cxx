@@ -1,6 +1,7 @@
 #include "voxelcore/CertifiedCore.h"
 
 #include "CertificateText.h"
+#include "CheckedLattice.h"
 #include "PruneStages.h"
 #include "voxelcore/BodyFrame.h"
 #include "voxelcore/ComplexTopology.h"
@@ -174,7 +175,8 @@ PruneCertified(CertifiedCore               core,
     throw UsageError(shape.name + ": its core is pruned by tolerance already and cannot be pruned by lambda");
   }
   const SpacingWeights weights = ComputeSpacingWeights(shape.geometry.spacing);
-  std::vector<double>  thresholds;
+  RequireTrueLattice(weights, shape.geometry, shape.box, shape.name);
+  std::vector<double> thresholds;
   for (const Lambda & lambda : lambdas)
   {
     RequireLengthIn(shape.geometry.unit, lambda);

@@ -1,6 +1,7 @@
 #include "voxelcore/CertifiedSkeleton.h"
 
 #include "CertificateText.h"
+#include "CheckedLattice.h"
 #include "Frames.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/BallUnion.h"
@@ -345,6 +346,7 @@ SkeletonOf(const PlacedCore &       core,
   StagePlan            plan(progress, { 0.98, 0.02 });
   const BodyFrame      frame(shape.geometry, shape.box);
   const CertifiedShape there = InFrame(shape, frame);
+  RequireTrueLattice(ComputeLatticeWeights(shape.geometry), shape.geometry, shape.box, shape.name);
   MedialComplex surface = core.core;
   frame.Enter(surface.positions);
   const BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());

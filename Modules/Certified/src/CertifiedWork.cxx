@@ -146,6 +146,10 @@ private:
           m_Whole.topology = RequireTopologyOf(core.cells, m_Result.shape);
         }
       });
+    if (!m_Whole.topology && !BurnsWhole(m_Request))
+    {
+      RefuseResult(m_Request.name, "its core was not counted");
+    }
     if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
     {
       m_Pruned = LambdasSpendWhole() ? PruneByLambda(std::move(core), AscendingBeyond(0, m_Thresholds), prune)

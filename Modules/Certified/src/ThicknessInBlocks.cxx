@@ -1,6 +1,7 @@
 #include "voxelcore/ThicknessInBlocks.h"
 
 #include "CertificateText.h"
+#include "CheckedLattice.h"
 #include "Frames.h"
 #include "InscribedThickness.h"
 #include "RequestStages.h"
@@ -266,9 +267,10 @@ ThicknessInBlocks(const VoxelShape &        shape,
     LeaveFrame(frame, balls);
     return isAtBorder(balls);
   };
-  const CertifiedRequest complete =
-    InFrame(CompleteRequest(request, geometry.spacing), frame, ComputeLatticeWeights(geometry));
-  Work work(moved, frame.Geometry(), complete, isAtBorderThere);
+  const SpacingWeights weights = ComputeLatticeWeights(geometry);
+  RequireTrueLattice(weights, frame.Geometry(), moved.Box(), request.name);
+  const CertifiedRequest complete = InFrame(CompleteRequest(request, geometry.spacing), frame, weights);
+  Work                   work(moved, frame.Geometry(), complete, isAtBorderThere);
   for (std::size_t i = 0; i < blocks.size(); ++i)
   {
     const auto share = [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(blocks.size()); };

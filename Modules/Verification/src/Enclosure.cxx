@@ -52,7 +52,8 @@ IsInside(const VoxelShape & shape, const Position & position, double tolerance)
 bool
 LieInside(const VoxelShape & shape, std::span<const std::array<double, 3>> places)
 {
-  std::atomic<bool> all = true;
+  std::atomic<bool>        all = true;
+  std::atomic<std::size_t> seen = 0; // makers run their work in such parts, too: that none is lost is counted here
   RunInParts(places.size() > 10000, places.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && all; ++i)
     {
@@ -61,8 +62,9 @@ LieInside(const VoxelShape & shape, std::span<const std::array<double, 3>> place
         all = false;
       }
     }
+    seen += last - first;
   });
-  return all;
+  return all && seen == places.size();
 }
 
 } // namespace voxelcore

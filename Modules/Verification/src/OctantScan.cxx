@@ -1,9 +1,11 @@
 #include "voxelcore/OctantScan.h"
 
+#include "voxelcore/Error.h"
 #include "voxelcore/ParallelTasks.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 
@@ -107,13 +109,21 @@ ScanLayers(const VoxelShape & shape, std::int32_t first, std::int32_t last, Octa
 OctantScan
 ScanOctants(const VoxelShape & shape)
 {
-  constexpr std::int32_t  layers = 8; // that a thread takes at a time
-  const std::int32_t      count = shape.Box().size[2] + 1;
-  std::vector<OctantScan> parts(static_cast<std::size_t>((count + layers - 1) / layers));
+  constexpr std::int32_t   layers = 8; // that a thread takes at a time
+  const std::int32_t       count = shape.Box().size[2] + 1;
+  std::vector<OctantScan>  parts(static_cast<std::size_t>((count + layers - 1) / layers));
+  std::atomic<std::size_t> seen = 0; // makers run their work in such parts, too: that none is lost is counted here
   RunEach(parts.size(), [&](std::size_t part) {
     const std::int32_t first = static_cast<std::int32_t>(part) * layers;
     ScanLayers(shape, first, std::min(first + layers, count), parts[part]);
+    ++seen;
   });
+  if (seen != parts.size())
+  {
+    throw CertificateError(
+      "certificate failed: a part of the shape's boundary was not looked at; there is no result; "
+      "this is a fault of VoxelCore, please report it with the scan");
+  }
   OctantScan scan;
   for (const OctantScan & part : parts)
   {
