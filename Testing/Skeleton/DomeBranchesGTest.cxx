@@ -79,6 +79,57 @@ TEST(DomeBranches, AWayIntoADomeAndBackBecomesOneBranch)
   }
 }
 
+/** How far points of branches between 8 and 62 along the tube lie off its axis, but for those nearer to the dome. */
+double
+FarthestOffAxis(const SkeletonGraph & graph)
+{
+  double farthest = 0;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    const auto along = [&](ElementIndex point) { return std::abs(graph.positions[point][0] - 35); };
+    if (std::max(along(points.front()), along(points.back())) > 10)
+    {
+      for (const ElementIndex point : points)
+      {
+        farthest = std::max(farthest, std::hypot(graph.positions[point][1] - 20, graph.positions[point][2] - 20));
+      }
+    }
+  }
+  return farthest;
+}
+
+TEST(DomeBranches, TheLineOfTheTubeGoesStraightOnPastADome)
+{
+  const Spacing3      centre{ 35, 31.5, 20 };
+  const VoxelShape    shape = TubeAnd(centre, 9);
+  const ImageGeometry geometry = GridFromOrigin({ 1, 1, 1 });
+  const OpenShape     inside(shape, geometry);
+  SkeletonGraph graph = LineThrough({ { 8, 20, 20 }, { 29, 20, 20 }, centre, { 41, 20, 20 }, { 62, 20, 20 } }, inside);
+  ASSERT_EQ(BranchIntoDomes(graph, inside, 2), 1U);
+  EXPECT_GT(FarthestOffAxis(graph), 3);
+  ASSERT_EQ(StraightenPastDomes(graph, inside), 1U);
+  EXPECT_LT(FarthestOffAxis(graph), 0.1);
+  EXPECT_EQ(graph.BranchCount(), 3U);
+  for (std::size_t point = 0; point < graph.positions.size(); ++point)
+  {
+    EXPECT_NEAR(graph.radius[point], inside.DistanceToBoundary(graph.positions[point], 0, 40), 1e-9);
+  }
+}
+
+TEST(DomeBranches, ALineThatEndsBesideItsDomeOrHasNoneStays)
+{
+  const Spacing3      centre{ 35, 31.5, 20 };
+  const VoxelShape    shape = TubeAnd(centre, 9);
+  const ImageGeometry geometry = GridFromOrigin({ 1, 1, 1 });
+  const OpenShape     inside(shape, geometry);
+  SkeletonGraph       ends = LineThrough({ { 8, 20, 20 }, { 29, 20, 20 }, centre, { 41, 20, 20 } }, inside);
+  ASSERT_EQ(BranchIntoDomes(ends, inside, 2), 1U);
+  EXPECT_EQ(StraightenPastDomes(ends, inside), 0U);
+  SkeletonGraph none = LineThrough({ { 8, 20, 20 }, { 62, 20, 20 } }, inside);
+  EXPECT_EQ(StraightenPastDomes(none, inside), 0U);
+}
+
 TEST(DomeBranches, ABallOnTheAxisOrAShallowOneIsNoDome)
 {
   const ImageGeometry geometry = GridFromOrigin({ 1, 1, 1 });

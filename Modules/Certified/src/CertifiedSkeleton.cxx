@@ -290,6 +290,10 @@ MeasureCurves(const BurnedCurves &    burned,
   {
     FitBranches(graph, window, reach, inside);
   }
+  if (window > 0 && StraightenPastDomes(graph, inside) > 0)
+  {
+    FitBranches(graph, window, reach, inside);
+  }
   RequireTopologyOf(graph, result.topology, shape.name);
   const std::vector<Vector3> measured = graph.medial; // where the radii are those of balls
   if (window > 0 && PlaceTips(graph, voxels, shape.geometry) > 0)

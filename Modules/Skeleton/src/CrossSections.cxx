@@ -2,9 +2,12 @@
 
 #include "BoundaryShares.h"
 
+#include "voxelcore/DomeBranches.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -63,10 +66,12 @@ public:
       position = Times(PhysicalToLattice(geometry, position), geometry.spacing);
     }
     m_Graph.radius = graph.radius;
+    m_IsBeyond.assign(m_Points, 0);
     m_Graph.nodePoints = graph.nodePoints;
     m_Graph.nodeKinds = graph.nodeKinds;
     m_Graph.branchNodes = graph.branchNodes;
     TakePoints(graph);
+    FindDomes();
     m_Excess.assign(m_Graph.positions.size(), kUnknown);
     for (std::size_t point = 0; point < m_Graph.positions.size(); ++point)
     {
@@ -118,33 +123,127 @@ public:
 
 private:
   /** The points of the branches, and between those that lie farther apart than slabs should be thick, more of them: a
-   *  core has few where a body is as wide as before. */
+   *  core has few where a body is as wide as before. Beyond tips branches go on straight, as far as the body does: what
+   *  lies there is in no slab before. */
   void
   TakePoints(const SkeletonGraph & graph)
   {
     for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
     {
       const auto points = graph.Branch(branch);
-      for (std::size_t i = 0; i < points.size(); ++i)
+      if (IsRod(branch, points.size()))
       {
-        m_Graph.branchPoints.push_back(points[i]);
-        if (i + 1 == points.size() || IsRod(branch, points.size()))
+        m_Graph.branchPoints.insert(m_Graph.branchPoints.end(), points.begin(), points.end());
+      }
+      else
+      {
+        std::vector<ElementIndex> back(points.rbegin(), points.rend());
+        std::vector<ElementIndex> beyond;
+        AddBeyondTip(branch, 0, back, beyond);
+        std::ranges::reverse(beyond);
+        m_Graph.branchPoints.insert(m_Graph.branchPoints.end(), beyond.begin(), beyond.end());
+        for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        {
+          m_Graph.branchPoints.push_back(points[i]);
+          AddBetween(m_Graph.positions[points[i]],
+                     m_Graph.radius[points[i]],
+                     m_Graph.positions[points[i + 1]],
+                     m_Graph.radius[points[i + 1]],
+                     m_Graph.branchPoints);
+        }
+        m_Graph.branchPoints.push_back(points.back());
+        AddBeyondTip(branch, 1, { points.begin(), points.end() }, m_Graph.branchPoints);
+      }
+      m_Graph.branchOffsets.push_back(m_Graph.branchPoints.size());
+    }
+  }
+
+  void
+  AddPoint(Vector3 position, double radius, std::vector<ElementIndex> & points)
+  {
+    points.push_back(static_cast<ElementIndex>(m_Graph.positions.size()));
+    m_Graph.positions.push_back(position);
+    m_Graph.radius.push_back(radius);
+    m_IsBeyond.push_back(0);
+  }
+
+  /** Points between two places and balls. */
+  void
+  AddBetween(Vector3                     from, // no reference: it may be one of the positions that are added to
+             double                      fromRadius,
+             Vector3                     to,
+             double                      toRadius,
+             std::vector<ElementIndex> & points)
+  {
+    const Vector3 way = Minus(to, from);
+    const double  extent = ExtentAlong(way, m_Spacing); // times its length
+    const double  parts = extent > 0 ? std::ceil(kSlabsInExtent * Dot(way, way) / extent) : 1;
+    for (double part = 1; part < parts; ++part)
+    {
+      const double at = part / parts;
+      AddPoint(AddScaled(from, at, way), (1 - at) * fromRadius + at * toRadius, points);
+    }
+  }
+
+  /** Goes on beyond the last of a branch's points, where that is a tip. */
+  void
+  AddBeyondTip(std::size_t                       branch,
+               std::size_t                       end,
+               const std::vector<ElementIndex> & points,
+               std::vector<ElementIndex> &       beyond)
+  {
+    const Vector3 tip = m_Graph.positions[points.back()];
+    const double  radius = m_Graph.radius[points.back()];
+    std::size_t   from = points.size() - 1;
+    while (from > 0 && Distance(m_Graph.positions[points[from]], tip) < std::max(m_Diagonal, radius))
+    {
+      --from;
+    }
+    const Vector3 way = Minus(tip, m_Graph.positions[points[from]]);
+    if (Kind(branch, end) == NodeKind::Tip && Length(way) > 0)
+    {
+      const Vector3     last = AddScaled(tip, (radius + kWindowInExtents * m_Diagonal) / Length(way), way);
+      const std::size_t before = m_IsBeyond.size();
+      AddBetween(tip, radius, last, radius, beyond);
+      AddPoint(last, radius, beyond);
+      std::fill(m_IsBeyond.begin() + static_cast<std::ptrdiff_t>(before), m_IsBeyond.end(), std::uint8_t{ 1 });
+    }
+  }
+
+  /** A ball at a side that a tube's balls do not close off: within it no section of the tube is one. */
+  struct Dome
+  {
+    std::size_t branch = 0;
+    Vector3     middle{};
+    double      radius = 0;
+  };
+
+  /** Of each node the greatest dome that a branch leads into there (DomeBranches.h). */
+  void
+  FindDomes()
+  {
+    m_Domes.resize(m_Graph.nodePoints.size());
+    for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
+    {
+      for (const std::size_t end : { 0U, 1U })
+      {
+        const std::size_t node = m_Graph.branchNodes[branch][end];
+        if (Kind(branch, end) != NodeKind::Junction || Kind(branch, 1 - end) != NodeKind::Tip)
         {
           continue;
         }
-        const Vector3 a = m_Graph.positions[points[i]];
-        const Vector3 way = Minus(m_Graph.positions[points[i + 1]], a);
-        const double  extent = ExtentAlong(way, m_Spacing); // times its length
-        const auto    parts = extent > 0 ? static_cast<int>(std::ceil(kSlabsInExtent * Dot(way, way) / extent)) : 1;
-        for (int part = 1; part < parts; ++part)
+        const ElementIndex base = m_Graph.nodePoints[node];
+        const auto         points = m_Graph.Branch(branch);
+        const ElementIndex greatest =
+          *std::ranges::max_element(points, {}, [&](ElementIndex point) { return m_Graph.radius[point]; });
+        const double radius = m_Graph.radius[greatest];
+        if (radius > std::max(m_Domes[node].radius, m_Graph.radius[base]) &&
+            Distance(m_Graph.positions[greatest], m_Graph.positions[base]) + radius - m_Graph.radius[base] >=
+              kDomeOfRadius * radius)
         {
-          const double at = static_cast<double>(part) / parts;
-          m_Graph.branchPoints.push_back(static_cast<ElementIndex>(m_Graph.positions.size()));
-          m_Graph.positions.push_back(AddScaled(a, at, way));
-          m_Graph.radius.push_back((1 - at) * m_Graph.radius[points[i]] + at * m_Graph.radius[points[i + 1]]);
+          m_Domes[node] = { branch, m_Graph.positions[greatest], radius };
         }
       }
-      m_Graph.branchOffsets.push_back(m_Graph.branchPoints.size());
     }
   }
 
@@ -198,7 +297,7 @@ private:
   }
 
   bool
-  InJunctionBall(std::size_t branch, ElementIndex point) const
+  InJunction(std::size_t branch, ElementIndex point) const
   {
     for (const ElementIndex node : m_Graph.branchNodes[branch])
     {
@@ -206,7 +305,10 @@ private:
       if (kind == NodeKind::Junction || kind == NodeKind::Surface)
       {
         const ElementIndex centre = m_Graph.nodePoints[node];
-        if (Distance(m_Graph.positions[point], m_Graph.positions[centre]) < m_Graph.radius[centre])
+        const Dome &       dome = m_Domes[node];
+        if (Distance(m_Graph.positions[point], m_Graph.positions[centre]) < m_Graph.radius[centre] ||
+            (dome.branch != branch &&
+             Distance(m_Graph.positions[point], dome.middle) < dome.radius + m_Graph.radius[point] + m_Diagonal))
         {
           return true;
         }
@@ -268,7 +370,7 @@ private:
       {
         for (std::size_t i = 0; i < points.size() && (!inside || count == 0); ++i)
         {
-          if (inside || !InJunctionBall(branch, points[i]))
+          if (inside || !InJunction(branch, points[i]))
           {
             sum += m_Graph.radius[points[i]];
             ++count;
@@ -425,8 +527,9 @@ private:
       const Vector3 &   here = m_Sites[points[at]].place;
       const Vector3 &   next = m_Sites[points[Step(points, at, true, isLoop)]].place;
       const Vector3 &   before = m_Sites[points[Step(points, at, false, isLoop)]].place;
-      const bool        isSection = (isLoop || (at > 0 && at + 1 < count)) && !InJunctionBall(branch, points[at]);
-      const double      ahead = 0.5 * Distance(here, next);
+      const bool        isEmpty = m_IsBeyond[points[at]] != 0 && shares[points[at]].volume <= 0;
+      const bool   isSection = (isLoop || (at > 0 && at + 1 < count)) && !isEmpty && !InJunction(branch, points[at]);
+      const double ahead = 0.5 * Distance(here, next);
       slabs.push_back({ way,
                         way - behind,
                         way + ahead,
@@ -439,7 +542,7 @@ private:
     for (std::size_t i = begin; i < begin + count; ++i)
     {
       const ElementIndex point = points[i % count];
-      if (InJunctionBall(branch, point))
+      if (InJunction(branch, point))
       {
         continue;
       }
@@ -454,7 +557,7 @@ private:
     }
   }
 
-  /** Nodes that join branches get the mean of what these have nearest to them. */
+  /** Nodes that join branches get the mean of what these have nearest to them, but for what leads into a dome. */
   void
   FillNodes()
   {
@@ -465,11 +568,12 @@ private:
       const auto points = m_Graph.Branch(branch);
       const auto known = [&](ElementIndex point) { return !std::isnan(m_Excess[point]); };
       const auto add = [&](std::size_t end, auto from, auto to) {
-        const auto nearest = std::find_if(from, to, known);
-        if (nearest != to)
+        const auto        nearest = std::find_if(from, to, known);
+        const std::size_t node = m_Graph.branchNodes[branch][end];
+        if (nearest != to && (m_Domes[node].radius <= 0 || m_Domes[node].branch != branch))
         {
-          sum[m_Graph.branchNodes[branch][end]] += m_Excess[*nearest];
-          ++count[m_Graph.branchNodes[branch][end]];
+          sum[node] += m_Excess[*nearest];
+          ++count[node];
         }
       };
       if (points.size() > 2)
@@ -526,9 +630,11 @@ private:
     }
   }
 
-  SkeletonGraph             m_Graph;  ///< nodes, branches and radii; positions in mm along the axes of the grid
-  std::size_t               m_Points; ///< that are in the skeleton itself; the others follow
-  std::vector<double>       m_Excess; ///< per point, of the section's radius over the ball's; NaN while unknown
+  SkeletonGraph             m_Graph;    ///< nodes, branches and radii; positions in mm along the axes of the grid
+  std::size_t               m_Points;   ///< that are in the skeleton itself; the others follow
+  std::vector<double>       m_Excess;   ///< per point, of the section's radius over the ball's; NaN while unknown
+  std::vector<std::uint8_t> m_IsBeyond; ///< per point, whether it lies beyond a tip
+  std::vector<Dome>         m_Domes;    ///< per node; those of radius 0 are none
   Vector3                   m_Spacing;
   double                    m_Diagonal;
   std::vector<WeightedSite> m_Sites; ///< per point

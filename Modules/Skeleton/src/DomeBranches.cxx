@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -157,7 +158,190 @@ private:
   const double          m_StandOut; ///< mm
 };
 
+/** A branch from a junction on. */
+struct DomeArm
+{
+  std::vector<ElementIndex> points;
+  std::vector<double>       way; ///< mm, of each point
+  bool                      endsInTip = false;
+  std::size_t               greatest = 0; ///< its greatest ball
+};
+
+class DomePassing
+{
+public:
+  DomePassing(SkeletonGraph & graph, const OpenShape & inside)
+    : m_Graph(graph)
+    , m_Inside(inside)
+  {}
+
+  /** Whether the three branches that end in a point are two of a tube and one that leads into a dome, and have been
+   *  straightened. */
+  bool
+  Straighten(std::vector<DomeArm> arms)
+  {
+    std::ranges::stable_sort(arms, std::ranges::greater(), [&](const DomeArm & arm) {
+      return arm.endsInTip ? BallAt(arm, arm.greatest) : 0.0;
+    });
+    const DomeArm & dome = arms[0];
+    const double    radius = BallAt(dome, dome.greatest);
+    const double    ball = BallAt(dome, 0);
+    if (!dome.endsInTip || radius <= ball || dome.way[dome.greatest] + radius - ball < kDomeOfRadius * radius)
+    {
+      return false;
+    }
+    const Vector3     middle = Place(dome, dome.greatest);
+    const std::size_t before = FirstApart(arms[1], middle, radius);
+    const std::size_t behind = FirstApart(arms[2], middle, radius);
+    if (before == 0 || behind == 0)
+    {
+      return false;
+    }
+    const Vector3 from = Place(arms[1], before);
+    const Vector3 to = Place(arms[2], behind);
+    const double  chord = Distance(from, to);
+    // A cubic has at its ends these slopes.
+    const Vector3 in = AddScaled({}, chord, Outwards(arms[1], before, Minus(from, to)));
+    const Vector3 out = AddScaled({}, -chord, Outwards(arms[2], behind, Minus(to, from)));
+    const auto    at = [&](double t) {
+      const double  s = 1 - t;
+      const Vector3 ends = AddScaled(AddScaled({}, s * s * (1 + 2 * t), from), t * t * (3 - 2 * t), to);
+      return AddScaled(AddScaled(ends, -t * s * s, in), -t * t * s, out);
+    };
+    double           nearest = 0;
+    constexpr double parts = 64;
+    for (double part = 1; part < parts; ++part)
+    {
+      nearest = Distance(at(part / parts), middle) < Distance(at(nearest), middle) ? part / parts : nearest;
+    }
+    std::vector<std::pair<ElementIndex, Vector3>> moved;
+    const Vector3                                 junction = at(nearest);
+    Vector3                                       last = junction;
+    bool                                          isIn = m_Inside.Holds(junction);
+    const auto                                    move = [&](const DomeArm & arm, std::size_t end, const auto & place) {
+      last = junction;
+      for (std::size_t i = 1; i <= end && isIn; ++i)
+      {
+        const Vector3 next = place(arm.way[i] / arm.way[end]);
+        isIn = m_Inside.HoldsSegment(last, next);
+        moved.emplace_back(arm.points[i], next);
+        last = next;
+      }
+    };
+    moved.emplace_back(dome.points[0], junction);
+    move(arms[1], before, [&](double part) { return at(nearest * (1 - part)); });
+    move(arms[2], behind, [&](double part) { return at(nearest + (1 - nearest) * part); });
+    move(dome, dome.greatest, [&](double part) { return AddScaled(junction, part, Minus(middle, junction)); });
+    if (!isIn)
+    {
+      return false;
+    }
+    // By so much balls of a refined surface differ from those of voxels.
+    const double most = radius + dome.way.back() + chord;
+    const double differs = BallAt(arms[1], before) - m_Inside.DistanceToBoundary(from, 0, most);
+    for (const auto & [point, place] : moved)
+    {
+      m_Graph.positions[point] = place;
+      m_Graph.radius[point] = std::max(0.0, m_Inside.DistanceToBoundary(place, 0, most) + differs);
+      if (!m_Graph.medial.empty())
+      {
+        m_Graph.medial[point] = place;
+      }
+    }
+    return true;
+  }
+
+private:
+  const Vector3 &
+  Place(const DomeArm & arm, std::size_t at) const
+  {
+    return m_Graph.positions[arm.points[at]];
+  }
+
+  double
+  BallAt(const DomeArm & arm, std::size_t at) const
+  {
+    return m_Graph.radius[arm.points[at]];
+  }
+
+  /** The first point whose ball is apart from a ball, which in voxels may be smaller by half a diagonal than in the
+   *  body, each; 0 where none is before the branch's end. */
+  std::size_t
+  FirstApart(const DomeArm & arm, const Vector3 & middle, double radius) const
+  {
+    for (std::size_t i = 1; i + 1 < arm.points.size(); ++i)
+    {
+      if (Distance(Place(arm, i), middle) >= radius + BallAt(arm, i) + m_Inside.VoxelDiagonal())
+      {
+        return i;
+      }
+    }
+    return 0;
+  }
+
+  /** The direction in which a branch leads on from a point, over two radii of its ball; where it ends before, the one
+   *  given. */
+  Vector3
+  Outwards(const DomeArm & arm, std::size_t at, Vector3 direction) const
+  {
+    for (std::size_t i = at + 1; i < arm.points.size(); ++i)
+    {
+      if (arm.way[i] - arm.way[at] >= 2 * BallAt(arm, at))
+      {
+        direction = Minus(Place(arm, i), Place(arm, at));
+        break;
+      }
+    }
+    return AddScaled({}, 1 / Length(direction), direction);
+  }
+
+  SkeletonGraph &   m_Graph;
+  const OpenShape & m_Inside;
+};
+
 } // namespace
+
+std::size_t
+StraightenPastDomes(SkeletonGraph & graph, const OpenShape & inside)
+{
+  std::vector<std::vector<DomeArm>> arms(graph.nodePoints.size());
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto [first, last] = graph.branchNodes[branch];
+    for (const std::size_t end : { 0U, 1U })
+    {
+      if (first == last)
+      {
+        continue;
+      }
+      const auto points = graph.Branch(branch);
+      DomeArm    arm{ { points.begin(), points.end() },
+                   { 0 },
+                   graph.nodeKinds[graph.branchNodes[branch][1 - end]] == NodeKind::Tip };
+      if (end == 1)
+      {
+        std::ranges::reverse(arm.points);
+      }
+      for (std::size_t i = 1; i < arm.points.size(); ++i)
+      {
+        arm.way.push_back(arm.way.back() +
+                          Distance(graph.positions[arm.points[i]], graph.positions[arm.points[i - 1]]));
+        arm.greatest = graph.radius[arm.points[i]] > graph.radius[arm.points[arm.greatest]] ? i : arm.greatest;
+      }
+      arms[graph.branchNodes[branch][end]].push_back(std::move(arm));
+    }
+  }
+  std::size_t count = 0;
+  DomePassing passing(graph, inside);
+  for (std::size_t node = 0; node < arms.size(); ++node)
+  {
+    if (graph.nodeKinds[node] == NodeKind::Junction && arms[node].size() == 3)
+    {
+      count += passing.Straighten(std::move(arms[node])) ? 1 : 0;
+    }
+  }
+  return count;
+}
 
 std::size_t
 BranchIntoDomes(SkeletonGraph & graph, const OpenShape & inside, double standOut)

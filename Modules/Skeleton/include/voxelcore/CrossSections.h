@@ -20,8 +20,9 @@ namespace voxelcore
  *  between its corners is up to a voxel smaller or larger. For a cross-section that is not round this is the geometric
  *  mean of its half axes, say, where the ball's radius is the least of them.
  *
- *  Within the balls at junctions, and at tips, it is the ball's radius plus what its next neighbour on the branch has
- *  more than its ball. A component without a cross-section has the radius of the round rod of its length with its
+ *  Beyond a tip the branch is taken to go on straight as far as the body does. Within the balls at junctions, and where
+ *  a tube opens into a dome at its side, it is the ball's radius plus what its next neighbour on the branch has more
+ *  than its ball. A component without a cross-section has the radius of the round rod of its length with its
  *  volume. Points of faces that stay keep the ball's radius.
  *
  *  `shape` is the body the skeleton is of, in the voxels of `geometry`; positions of the graph are in its LPS mm. The

@@ -22,4 +22,14 @@ constexpr double kDomeOfRadius = 0.5;
 std::size_t
 BranchIntoDomes(SkeletonGraph & graph, const OpenShape & inside, double standOut);
 
+/** Draws the line of a tube straight on past each dome at its side. The medial surface bends into the neck there, as
+ *  far as the dome has opened the tube's wall: so from where the balls of the tube are apart from the dome's greatest
+ *  ball on one side to where they are on the other, the line is the cubic that goes on in its directions there. The
+ *  junction lies where that is nearest to the dome's middle, and the dome's branch leads straight there. A dome is a
+ *  branch with a tip whose greatest ball stands out of that at its junction by kDomeOfRadius. Where a line would leave
+ *  the shape, or a tube ends or forks before it is apart from its dome, it stays. Moves points, in `medial`, too, and
+ *  measures their balls anew: the branches are to be fitted again. Gives the number of domes. */
+std::size_t
+StraightenPastDomes(SkeletonGraph & graph, const OpenShape & inside);
+
 } // namespace voxelcore

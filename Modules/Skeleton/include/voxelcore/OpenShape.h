@@ -3,6 +3,7 @@
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/SkeletonGraph.h"
+#include "voxelcore/Vectors.h"
 #include "voxelcore/VoxelShape.h"
 
 namespace voxelcore
@@ -19,6 +20,13 @@ public:
 
   bool
   Holds(const Vector3 & place) const;
+
+  /** mm */
+  double
+  VoxelDiagonal() const
+  {
+    return Length(m_Geometry->spacing);
+  }
 
   /** Whether all of a segment lies in the shape. */
   bool
