@@ -323,6 +323,7 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
     if (IsManifest(input) && !fs::is_directory(input))
     {
       auto rows = ReadManifest(input);
+      cases.empty() ? cases.swap(rows) : void(); // tens of thousands are not there twice
       cases.insert(cases.end(), std::move_iterator(rows.begin()), std::move_iterator(rows.end()));
     }
     else
@@ -346,18 +347,16 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
   {
     KeepNames(found, plain, cases, output);
   }
+  cases.reserve(cases.size() + found.size());
   for (Found & one : found)
   {
     std::string folder = CaseFolder(one.id);
     cases.push_back({ std::move(one.id), std::move(folder), std::move(one.scan), {} });
   }
-  std::set<std::string> folders;
-  for (const CohortCase & one : cases)
+  if (const auto twice = CaseThatIsThereTwice(cases))
   {
-    if (!folders.insert(one.folder).second)
-    {
-      throw InputError("the id '" + one.id + "' occurs twice among the inputs; give ids of your own in a manifest");
-    }
+    throw InputError("the id '" + cases[twice->second].id +
+                     "' occurs twice among the inputs; give ids of your own in a manifest");
   }
   return cases;
 }

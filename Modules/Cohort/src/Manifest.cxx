@@ -13,6 +13,8 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <numeric>
+#include <tuple>
 
 namespace voxelcore
 {
@@ -260,30 +262,50 @@ CaseFolder(const std::string & id)
   return "sub-" + kept.substr(0, kLongest) + "x" + TextSha256(own).substr(0, 8);
 }
 
+std::optional<std::pair<std::size_t, std::size_t>>
+CaseThatIsThereTwice(const std::vector<CohortCase> & cases)
+{
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{ 0 });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(cases[a].folder, a) < std::tie(cases[b].folder, b);
+  });
+  std::optional<std::pair<std::size_t, std::size_t>> twice;
+  for (std::size_t i = 1; i < order.size(); ++i)
+  {
+    if (cases[order[i]].folder == cases[order[i - 1]].folder && (!twice || order[i] < twice->second))
+    {
+      twice.emplace(order[i - 1], order[i]);
+    }
+  }
+  return twice;
+}
+
 std::vector<CohortCase>
 ReadManifest(const fs::path & manifest)
 {
   const std::string name = manifest.string();
-  const std::string text = ReadText(manifest);
+  std::string       text = ReadText(manifest);
   const char        separator = Normalized(manifest.extension().string()) == ".tsv" ? '\t' : FindSeparator(text);
-  const auto        rows = ParseCsv(text, name, separator);
+  auto              rows = ParseCsv(text, name, separator);
+  std::string().swap(text);
   if (rows.empty())
   {
     throw InputError(name + ": is empty; the first line must name the columns, such as id,scan,lambda");
   }
-  const auto                         roles = RolesOf(rows.front(), name);
-  std::vector<CohortCase>            cases;
-  std::map<std::string, std::size_t> lines;
+  const auto              roles = RolesOf(rows.front(), name);
+  std::vector<CohortCase> cases;
+  cases.reserve(rows.size() - 1);
+  const auto where = [&](std::size_t row) { return name + ": line " + std::to_string(rows[row].line); };
   for (std::size_t i = 1; i < rows.size(); ++i)
   {
-    const std::string where = name + ": line " + std::to_string(rows[i].line);
-    cases.push_back(CaseFrom(rows[i], roles, manifest.parent_path(), where, separator));
-    const auto [first, fresh] = lines.emplace(cases.back().folder, rows[i].line);
-    if (!fresh)
-    {
-      throw InputError(where + ": the id '" + cases.back().id + "' is on line " + std::to_string(first->second) +
-                       " already");
-    }
+    cases.push_back(CaseFrom(rows[i], roles, manifest.parent_path(), where(i), separator));
+    std::vector<std::string>().swap(rows[i].fields);
+  }
+  if (const auto twice = CaseThatIsThereTwice(cases))
+  {
+    throw InputError(where(twice->second + 1) + ": the id '" + cases[twice->second].id + "' is on line " +
+                     std::to_string(rows[twice->first + 1].line) + " already");
   }
   if (cases.empty())
   {

@@ -3,9 +3,12 @@
 
 #include "voxelcore/Parameters.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -33,6 +36,10 @@ NamesMask(std::string_view option, const std::string & value);
  *  never meet in one folder. A leading "sub-" of the id is dropped. */
 std::string
 CaseFolder(const std::string & id);
+
+/** Of cases that would go into one folder, the first that comes after another, and that one before it. */
+std::optional<std::pair<std::size_t, std::size_t>>
+CaseThatIsThereTwice(const std::vector<CohortCase> & cases);
 
 /** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any option of
  *  `voxelcore core`, `roots` or `thickness` without its dashes; `note` is passed over. An empty field means the option
