@@ -109,14 +109,19 @@ TEST_F(OtherCommands, InfoTellsComponentsOfBothConnectivities)
   const Json info = Json::parse(Run({ "info", m_Folder / "a.nrrd", "--json" }));
   EXPECT_EQ(info["labels"][0]["betti"][0], 2);
   EXPECT_EQ(info["labels"][0]["components_26"], 1);
+  EXPECT_EQ(info["labels"][0]["betti_26"], (Json{ 1, 0, 0 }));
   const std::string surprise =
-    "note: label 3 (label-3): 2 pieces; voxels that touch only at edges or corners count as "
-    "apart, else there would be 1: --connectivity 26 joins them\n";
+    "label 3 (label-3): 1 piece touches others over edges or corners alone (50 % of the voxels); join them with "
+    "--connectivity joined";
+  EXPECT_EQ(info["warnings"], Json{ surprise });
   const std::string text = Run({ "info", m_Folder / "a.nrrd" });
-  EXPECT_NE(text.find(surprise), std::string::npos) << text;
+  for (const char * numbers : { "2/0/0", "1/0/0" })
+  {
+    EXPECT_NE(text.find(numbers), std::string::npos) << text;
+  }
   scan.At(1, 2, 1) = 3; // now they are one either way
   WriteNrrd(m_Folder / "a.nrrd", scan);
-  EXPECT_EQ(Run({ "info", m_Folder / "a.nrrd" }).find("pieces"), std::string::npos);
+  EXPECT_EQ(Json::parse(Run({ "info", m_Folder / "a.nrrd", "--json" }))["warnings"], Json::array());
 }
 
 TEST_F(OtherCommands, AComponentIsChosenByCoreInfoAndVerifyAlike)

@@ -52,7 +52,7 @@ protected:
   {
     const ProgramResult result = RunProgram(arguments);
     EXPECT_EQ(result.code, 0) << result.error;
-    EXPECT_EQ(WithoutHollowWarnings(result.error), "");
+    EXPECT_EQ(WithoutDiagnoses(result.error), "");
     return result.output;
   }
 
@@ -415,6 +415,57 @@ TEST_F(ShapeEdits, VoxelsThatTouchOverCornersAreJoinedAndTheirListMakesTheSameSh
   EXPECT_EQ(tree["voxels_added"], 16);
   EXPECT_EQ(tree["changes"][0]["voxels"], 2);
   EXPECT_EQ(tree["changes"][0]["pieces"], -1);
+}
+
+TEST_F(ShapeEdits, SkeletonsJoinPiecesThatTouchAndCoresSayThatTheyMay)
+{
+  TestScan scan({ 12, 12, 12 });
+  for (int i = 1; i < 10; ++i)
+  {
+    scan.At(i, i, i) = 1;
+  }
+  WriteNrrd(m_Folder / "a.nrrd", scan);
+  const auto run = [&](const Texts & arguments) {
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 0) << result.error;
+    return result.error + result.output;
+  };
+  const auto has = [](const std::string & text, const std::string & part) {
+    return text.find(part) != std::string::npos;
+  };
+  const auto skeleton = [&](const Texts & more) {
+    return run(With({ "skeleton", "-o", m_Folder / "s.vtp", "--report", m_Folder / "s.json", "--force" }, more));
+  };
+  const auto        report = [&] { return Json::parse(ReadAll(m_Folder / "s.json")); };
+  const std::string said = "8 pieces fewer, with 16 voxels; to keep them apart: --connectivity 6";
+  const std::string advice =
+    "label 1 (label-1): 8 pieces touch others over edges or corners alone (89 % of the voxels); join them with "
+    "--connectivity joined";
+
+  EXPECT_TRUE(has(skeleton({}), said));
+  EXPECT_EQ(First(report()), (Numbers{ 25, 1, 0, 0 }));
+  EXPECT_EQ(report()["parameters"]["connectivity"], "joined");
+  EXPECT_EQ(report()["labels"][0]["skeleton"]["branches"], 1);
+  const Json made = report()["labels"][0]["edits"]["touching"];
+  EXPECT_EQ(made["pieces_joined"], 8);
+  EXPECT_EQ(made["pieces_apart"], 0);
+  EXPECT_EQ(made["voxels_added"], 16);
+
+  const std::string apart = skeleton({ "--connectivity", "6" });
+  EXPECT_FALSE(has(apart, said)) << apart;
+  EXPECT_EQ(First(report()), (Numbers{ 9, 9, 0, 0 }));
+  EXPECT_EQ(report()["labels"][0]["diagnosis"]["touching_pieces"], 8);
+
+  const std::string core = run(With({ "core", "--lambda", "0", "-o", m_Folder / "c.vtp" }, {}));
+  EXPECT_TRUE(has(core, advice)) << core;
+  const std::string ofCore = run({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "t.vtp" });
+  EXPECT_TRUE(has(ofCore, "make the core with --connectivity joined")) << ofCore;
+  const std::string joined =
+    run(With({ "core", "--lambda", "0", "-o", m_Folder / "c.vtp", "--force" }, { "--connectivity", "joined" }));
+  EXPECT_TRUE(has(joined, said) && !has(joined, advice)) << joined;
+  ExpectVerified("c.vtp");
+  const std::string ofJoined = run({ "skeleton", m_Folder / "c.vtp", "-o", m_Folder / "t.vtp", "--force" });
+  EXPECT_TRUE(has(ofJoined, "was made with --connectivity joined")) << ofJoined;
 }
 
 TEST_F(ShapeEdits, TheTopologyAskedForIsMadeAndItsChangesAreListed)

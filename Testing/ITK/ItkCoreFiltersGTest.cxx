@@ -4,6 +4,7 @@
 #include "itkMultiThreaderBase.h"
 
 #include "voxelcore/Certified.h"
+#include "voxelcore/ShapeEdits.h"
 #include "voxelcore/ShapeTopology.h"
 
 #include <omp.h>
@@ -133,6 +134,18 @@ TEST(ItkCoreFilters, GeometryGoesThrough)
     EXPECT_EQ(output->GetStartIndex(), (ImageIndex{ { 4, 5, 6 } }));
     EXPECT_EQ(output->TransformLatticeToPhysicalPoint({ 1.5, 2.5, 3.5 }), (itk::Point<double, 3>({ 1.5, 3, 9 })));
   }
+}
+
+TEST(ItkCoreFilters, TheRecordSaysByWhichConnectivityAShapeWasMade)
+{
+  Pipeline pipeline;
+  pipeline.pruned->Update();
+  EXPECT_EQ(pipeline.pruned->GetOutput()->GetProvenance(false).find("connectivity"), std::string::npos);
+  std::vector<LabelShape> labels = pipeline.shapes->GetLabels();
+  EXPECT_TRUE(ConnectLabels(labels, pipeline.shapes->GetGeometry(), Connectivity::Joined, "shapes").empty());
+  pipeline.shapes->SetLabels(labels);
+  pipeline.pruned->Update();
+  EXPECT_NE(pipeline.pruned->GetOutput()->GetProvenance(false).find("\"connectivity\":\"joined\""), std::string::npos);
 }
 
 TEST(ItkCoreFilters, LambdaIsWhatTheCommandLineMeansByIt)

@@ -1,5 +1,9 @@
 #include "ItkShapeFixtures.h"
 #include "ScanBytes.h"
+#include "voxelcore/ShapeConnectivity.h"
+#include "voxelcore/ShapeTopology.h"
+
+#include "itkOutputWindow.h"
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -279,11 +283,61 @@ TEST(ItkShapeFilter, PrintsItsParameters)
                               "Labels: 1,2",
                               "Binary: Off",
                               "Threshold: -0.5 to 8",
+                              "Connectivity: 6",
                               "Orthonormalize: Off",
                               "NumberOfStreamDivisions: 3" })
   {
     EXPECT_NE(text.find(words), std::string::npos) << words;
   }
+}
+
+TEST(ItkShapeFilter, JoinsPiecesThatTouchWhenAskedAndSaysElseThatTheyTouch)
+{
+  class Heard : public itk::OutputWindow
+  {
+  public:
+    using Self = Heard;
+    using Pointer = itk::SmartPointer<Self>;
+    itkFactorylessNewMacro(Heard);
+    void
+    DisplayWarningText(const char * text) override
+    {
+      said += text;
+    }
+    std::string said;
+  };
+  const auto heard = Heard::New();
+  const auto before = itk::OutputWindow::GetInstance();
+  itk::OutputWindow::SetInstance(heard);
+  const auto spy = Spy::New();
+  spy->size = kShapeSize;
+  spy->value = [](int x, int y, int z) { // two blocks of 3 x 3 x 3 that share a corner
+    return (x < 3 && y < 3 && z < 3) || (x >= 3 && x < 6 && y >= 3 && y < 6 && z >= 3 && z < 6) ? 4.0 : 0.0;
+  };
+  auto filter = ByteFilter::New();
+  filter->SetInput(spy->GetOutput());
+  const auto label = [&](const char * connectivity) {
+    filter->SetConnectivity(connectivity);
+    filter->Update();
+    return filter->GetOutput()->GetLabel(4);
+  };
+  EXPECT_EQ(ComputeShapeTopology(label("6").shape).betti[0], 2);
+  EXPECT_NE(heard->said.find("label 4 (label-4): 1 piece touches others over edges or corners alone (50 % of the "
+                             "voxels); join them with --connectivity joined"),
+            std::string::npos)
+    << heard->said;
+  heard->said.clear();
+  for (const char * connectivity : { "joined", "26" })
+  {
+    const LabelShape joined = label(connectivity);
+    EXPECT_EQ(ComputeShapeTopology(joined.shape), (TopologyNumbers{ 1, { 1, 0, 0 } }));
+    EXPECT_EQ(joined.voxels, joined.shape.CountVoxels());
+    EXPECT_EQ(ConnectivityName(joined.connectivity), connectivity);
+  }
+  EXPECT_EQ(heard->said, "");
+  itk::OutputWindow::SetInstance(before);
+  EXPECT_NE(ThrownBy([&] { label("18"); }).find("--connectivity: '18' is none; give 6, 26 or joined"),
+            std::string::npos);
 }
 
 TEST(ItkShapeFilter, RefusesASourceThatBringsLessThanItWasAskedFor)

@@ -40,7 +40,7 @@ TEST_F(InfoJob, TellsOfEachLabelWhatIsThere)
   EXPECT_EQ(label.box.lower, volume.labels[0].shape.Box().lower);
   EXPECT_EQ(label.box.size, volume.labels[0].shape.Box().size);
   EXPECT_EQ(label.topology, ComputeShapeTopology(volume.labels[0].shape));
-  EXPECT_EQ(label.components26, 1);
+  EXPECT_EQ(label.closed, ComputeClosedTopology(volume.labels[0].shape));
   ASSERT_TRUE(info.core && info.skeleton && info.page);
   EXPECT_GT(info.skeleton->memoryBytes, 0);
   EXPECT_FALSE(info.grey);
@@ -56,7 +56,7 @@ TEST_F(InfoJob, PiecesThatTouchInCornersAreCountedBothWays)
 {
   RunPhantomJob(PhantomOptionsFrom({ { "kind", "noise" }, { "size", "9" }, { "output", At("a.nrrd") } }));
   const LabelInfo label = Info("a.nrrd").labels.at(0);
-  EXPECT_LT(label.components26, label.topology.betti[0]);
+  EXPECT_LT(label.closed.betti[0], label.topology.betti[0]);
   const auto split = Info("a.nrrd", { { "split-components", "true" } }).labels;
   ASSERT_EQ(split.size(), static_cast<std::size_t>(label.topology.betti[0]));
   std::uint64_t voxels = 0;

@@ -46,7 +46,7 @@ Observe(vtkAlgorithm * filter, unsigned long event, Counter & counter)
   command->SetCallback([](vtkObject * caller, unsigned long what, void * data, void * text) {
     auto & to = *static_cast<Counter *>(data);
     ++to.calls;
-    if (what == vtkCommand::ErrorEvent)
+    if (what == vtkCommand::ErrorEvent || what == vtkCommand::WarningEvent)
     {
       to.said = static_cast<const char *>(text);
     }
@@ -235,6 +235,36 @@ TEST_F(VtkFilters, WorkOnOneLabel)
   ASSERT_EQ(model.parts.size(), 1U);
   EXPECT_EQ(model.parts[0].label, 5);
   EXPECT_EQ(model.parts[0].core.positions, Expected(0).parts[1].core.positions);
+}
+
+TEST_F(VtkFilters, JoinPiecesThatTouchWhenAskedAndSayElseThatTheyTouch)
+{
+  // The box of label 5 goes on over its corner.
+  for (int i = 38; i < 40; ++i)
+  {
+    *static_cast<short *>(m_Image->GetScalarPointer(i, 8, 13)) = 5;
+  }
+  m_Image->Modified();
+  Counter warnings;
+  Observe(m_Core, vtkCommand::WarningEvent, warnings);
+  const auto made = [&] {
+    m_Core->Update();
+    return ModelFromPolyData(*m_Core->GetOutput()).provenance;
+  };
+  EXPECT_EQ(made().find("connectivity"), std::string::npos);
+  EXPECT_EQ(warnings.calls, 1);
+  EXPECT_NE(warnings.said.find("label 5 (label-5): 1 piece touches others over edges or corners alone"),
+            std::string::npos)
+    << warnings.said;
+  m_Core->SetConnectivity("joined");
+  const std::string joined = made();
+  EXPECT_NE(joined.find("\"connectivity\":\"joined\""), std::string::npos) << joined;
+  EXPECT_EQ(warnings.calls, 1);
+  m_Core->SetConnectivity("18");
+  Counter errors;
+  Observe(m_Core, vtkCommand::ErrorEvent, errors);
+  m_Core->Update();
+  EXPECT_NE(errors.said.find("'18' is none"), std::string::npos) << errors.said;
 }
 
 TEST_F(VtkFilters, ReportWhatIsWrongOnceAndLeaveNothing)

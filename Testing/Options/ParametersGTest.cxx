@@ -318,6 +318,20 @@ TEST(Parameters, AMaskIsReadByFacesUnlessCornersAreAskedFor)
   EXPECT_THROW(CoreOptionsFrom(CoreValues({ { "connectivity", "18" } })), UsageError);
 }
 
+TEST(Parameters, SkeletonsJoinPiecesThatTouchUnlessSimplificationDoes)
+{
+  const auto read = [](ParameterValues values) {
+    values["scan"] = "a.nrrd";
+    values["output"] = "s.vtp";
+    return SkeletonOptionsFrom(values).edits.connectivity;
+  };
+  EXPECT_EQ(read({}), Connectivity::Joined);
+  EXPECT_EQ(read({ { "connectivity", "6" } }), Connectivity::Six);
+  EXPECT_EQ(read({ { "tree", "true" } }), Connectivity::Six);
+  EXPECT_EQ(read({ { "simplify-topology", "2vox" }, { "loops", "0" } }), Connectivity::Joined);
+  EXPECT_EQ(read({ { "tree", "true" }, { "connectivity", "joined" } }), Connectivity::Joined);
+}
+
 TEST(Parameters, WhatToReadArrivesWhereItBelongs)
 {
   const ParameterValues given{ { "crop", "1:2,3:4,5:6" }, { "component", "2" }, { "volume", "3" } };

@@ -102,6 +102,30 @@ def test_a_skeleton_has_the_bits_of_the_command_line(tmp_path):
     assert skeleton.numbers["branches"] == len(table["branch_distance"]) == len(skeleton.branch_nodes)
 
 
+def test_skeletons_and_sheets_join_pieces_that_touch_as_the_command_line_does(tmp_path):
+    line = numpy.zeros((14, 14, 14), numpy.uint8)
+    line[tuple([range(2, 12)] * 3)] = 1
+    write_nrrd(tmp_path / "scan.nrrd", line, **PLACES[1])
+
+    def pieces(made):
+        return made.report["labels"][0]["shape"]["betti"][0]
+
+    for given in (dict(), dict(connectivity=6), dict(connectivity="26"), dict(tree=True)):
+        options = []
+        for name, value in given.items():
+            options += [f"--{name}"] if value is True else [f"--{name}", str(value)]
+        done = run("skeleton", tmp_path / "scan.nrrd", "--force", "-o", tmp_path / "cli.vtp", *options)
+        assert done.returncode == 0, done.stderr
+        skeleton = voxelcore.skeleton(line, **given, **PLACES[1])
+        assert pieces(skeleton) == (10 if given == dict(connectivity=6) else 1)
+        skeleton.save(tmp_path / "python.vtp", overwrite=True)
+        assert arrays(polydata(tmp_path / "python.vtp")) == arrays(polydata(tmp_path / "cli.vtp"))
+    assert pieces(voxelcore.core(line)) == pieces(voxelcore.sheets(line, connectivity=6)["core"]) == 10
+    assert pieces(voxelcore.sheets(line)["core"]) == 1
+    with pytest.raises(ValueError, match="connectivity: a core has that of its shape"):
+        voxelcore.skeleton(voxelcore.core(line), connectivity=26)
+
+
 def test_pruning_a_core_equals_making_it_pruned(volume):
     whole = voxelcore.core(volume, lambda_=0)
     once = voxelcore.core(volume, lambda_="2vox")

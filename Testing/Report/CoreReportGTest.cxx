@@ -202,6 +202,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               EditRecord::Filled{ 23, 24, 25 },
                               EditRecord::Filled{ 26, 27, 28 },
                               EditRecord::Connected{ { 2, { 3, 2, 1 } }, 43, 44, 45, {} },
+                              EditRecord::Touching{ 46, 47, 48, {} },
                               EditRecord::Filled{ 41, 0, 42 },
                               EditRecord::Smoothed{ 12, 13, 1 },
                               simplified,

@@ -78,7 +78,7 @@ TEST(LackOfMemory, WithinAParallelLoopIsThrownOn)
     { "slices across y", [&] { FillSlices(noise, SliceAxis::J); } },
     { "hollow labels",
       [&] {
-        FindHollowLabels(hollow, { 1, 1, 1 });
+        DiagnoseLabels(hollow, { 1, 1, 1 });
       } },
     { "levels", [&] { ProposeLevels(bright, values, 50); } },
   });

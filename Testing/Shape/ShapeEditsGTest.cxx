@@ -2,6 +2,12 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/ShapeEdits.h"
+#include "voxelcore/ShapeTopology.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -111,6 +117,89 @@ TEST(ShapeEdits, ALabelOfWhichNothingIsLeftIsNamedOrRefused)
   EXPECT_THROW(EditLabels(labels, kGeometry, options, true, "a.nrrd"), InputError);
   options.minVoxels = 1000;
   EXPECT_THROW(EditLabels(labels, kGeometry, options, false, "a.nrrd"), InputError);
+}
+
+constexpr std::array<std::int64_t, 3> kIsotropic{ 1, 1, 1 };
+
+std::vector<std::string>
+Diagnosed(const std::vector<VoxelShape> & shapes)
+{
+  std::vector<EditedLabel> labels;
+  for (const VoxelShape & shape : shapes)
+  {
+    labels.push_back({ Label(static_cast<std::int64_t>(labels.size()) + 1, shape), 0, std::nullopt });
+  }
+  return DiagnoseLabels(labels, kIsotropic);
+}
+
+/** A block of side^3 with a rod of 5 voxels apart from it. */
+VoxelShape
+BlockWithDust(int side)
+{
+  return ShapeWhere({ side + 20, side, side }, [side](int x, int y, int z) {
+    return x < side || (y == 3 && z == 3 && x >= side + 3 && x < side + 8);
+  });
+}
+
+TEST(ShapeEdits, OfSeveralLabelsOneLineMendsAllAndTakesNoTruePiece)
+{
+  EXPECT_EQ(
+    Diagnosed({ BlockWithDust(20), BlockWithDust(30) }),
+    (std::vector<std::string>{
+      "label 1 (label-1): 1 island of at most 5 voxels (0.062 % of the voxels); label 2 (label-2): 1 island of at "
+      "most 5 voxels (0.019 % of the voxels); unless they are real, mend them with --min-voxels 6" }));
+  const VoxelShape tiny = ShapeWhere({ 4, 1, 1 }, [](int, int, int) { return true; });
+  EXPECT_EQ(Diagnosed({ BlockWithDust(20), tiny }),
+            (std::vector<std::string>{
+              "label 1 (label-1): 1 island of at most 5 voxels (0.062 % of the voxels); unless they are real, mend "
+              "them one by one, such as --labels 1 --min-voxels 6" }))
+    << "the second label would go";
+}
+
+TEST(ShapeEdits, AdviceThatTakesMuchSaysSo)
+{
+  // Beside a block of 10 x 10 x 10, ten rods of 5 voxels.
+  const std::vector<std::string> told = Diagnosed({ ShapeWhere({ 50, 40, 10 }, [](int x, int y, int z) {
+    return (x < 10 && y < 10) || (z == 5 && y % 4 == 3 && x >= 20 && x < 25);
+  }) });
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("10 islands"), std::string::npos) << told[0];
+  EXPECT_NE(told[0].find("--min-voxels 6, which removes 50 voxels (4.8 %)"), std::string::npos) << told[0];
+}
+
+TEST(ShapeEdits, PiecesThatTouchAreJoinedOrToldOf)
+{
+  // Two blocks of 3^3 that share one corner, and a third one that touches nothing.
+  const VoxelShape blocks = ShapeWhere({ 12, 6, 6 }, [](int x, int y, int z) {
+    return (x < 3 && y < 3 && z < 3) || (x >= 3 && x < 6 && y >= 3 && z >= 3) || (x >= 9 && y < 3 && z < 3);
+  });
+  EXPECT_EQ(Diagnosed({ blocks }),
+            (std::vector<std::string>{ "label 1 (label-1): 1 piece touches others over edges or corners alone (33 % of "
+                                       "the voxels); join them with --connectivity joined" }));
+  ShapeEditOptions options;
+  options.connectivity = Connectivity::Joined;
+  const EditedLabels edited = EditLabels({ Label(1, blocks) }, kGeometry, options, true, "a.nrrd");
+  ASSERT_EQ(edited.labels.size(), 1U);
+  EXPECT_TRUE(edited.touched);
+  EXPECT_EQ(ComputeShapeTopology(edited.labels[0].label.shape), (TopologyNumbers{ 2, { 2, 0, 0 } }));
+  EXPECT_EQ(edited.labels[0].label.voxels, 81U + 2U);
+  ASSERT_TRUE(edited.labels[0].edits && edited.labels[0].edits->touching);
+  EXPECT_EQ(edited.labels[0].edits->touching->piecesJoined, 1U);
+  EXPECT_EQ(edited.notes,
+            (std::vector<std::string>{ "pieces that touch over edges and corners joined: 1 piece fewer, with 2 voxels; "
+                                       "to keep them apart: --connectivity 6" }));
+}
+
+TEST(ShapeEdits, WhereNoPiecesTouchJoiningIsNoEdit)
+{
+  ShapeEditOptions options;
+  options.connectivity = Connectivity::Joined;
+  const EditedLabels edited = EditLabels({ Label(1, BlockAndSpeck()) }, kGeometry, options, true, "a.nrrd");
+  ASSERT_EQ(edited.labels.size(), 1U);
+  EXPECT_FALSE(edited.touched);
+  EXPECT_FALSE(edited.labels[0].edits);
+  EXPECT_TRUE(edited.notes.empty());
+  EXPECT_EQ(edited.labels[0].label.voxels, 125U);
 }
 
 } // namespace

@@ -202,6 +202,7 @@ def skeleton(
     prune_branches: Optional[_Length] = ...,
     root: Union[str, _Vector] = ...,
     cavities: Union[str, int] = ...,
+    connectivity: Union[str, int] = ...,
     network: bool = ...,
     threads: int = ...,
     progress: _Progress = ...,

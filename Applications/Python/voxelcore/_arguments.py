@@ -83,6 +83,15 @@ def of_array(function, rows, options, array, spacing, axes, label, threshold, or
     return voxels(array, spacing, axes, origin, direction, limits), given
 
 
+def join_pieces(options, connectivity):
+    """Adds the connectivity of skeletons and sheets to options of core(). What simplifies topology joins as many pieces
+    as it is asked for by itself, as on the command line."""
+    asked = [name for name in ("pieces", "loops", "cavities") if options.get(name) is not None]
+    simplifies = options.get("simplify_topology") is not None and ("pieces" in asked or not asked)
+    if connectivity != "joined" or not (options.get("tree") or simplifies):
+        options["connectivity"] = connectivity
+
+
 def root(where):
     """Where a hierarchy begins, as the command line takes it."""
     return where if isinstance(where, str) else ",".join(repr(value) for value in three("root", where))

@@ -108,6 +108,7 @@ def skeleton(
     prune_branches="1r",
     root="thickest",
     cavities="fill",
+    connectivity="joined",
     network=False,
     threads=0,
     progress=None,
@@ -129,6 +130,9 @@ def skeleton(
     cavities : {'fill', 'keep'} or int, default 'fill'
         Of an array: whether cavities are filled, so that the skeleton is curves, or surfaces around them are kept; with
         simplify_topology, a number of them to be left. A Core has the cavities it was made with.
+    connectivity : {6, 26, 'joined'}, default 'joined'
+        Of an array: which voxels hang together, as of core(). 'joined' joins pieces that touch over edges and corners,
+        and changes nothing else.
     network : bool, default False
         Of an array: one skeleton of several labels taken as one body, such as the vessels of a circle of Willis. Each
         point has its label (point_labels), and branches are cut where labels meet (contacts). label says which labels;
@@ -171,6 +175,8 @@ def skeleton(
     if isinstance(source, Core):
         if of_array or network:
             raise ValueError(f"{next(iter(of_array), 'network')}: is for arrays; the core was made already")
+        if connectivity != "joined":
+            raise ValueError("connectivity: a core has that of its shape; give the array")
         if own.get("border", "closed") != "closed":
             raise ValueError("border: a core ends at the border; give the array")
         return Skeleton(_voxelcore.skeleton(source._data, values, progress, False))
@@ -181,7 +187,8 @@ def skeleton(
     of_array.setdefault("refine", "off")
     if cavities not in ("fill", "keep"):
         of_array["cavities"] = cavities
-    elif cavities == "fill":
+    _arguments.join_pieces(of_array, connectivity)
+    if cavities == "fill":
         of_array.setdefault("fill_cavities", True)
     if network:
         return _network_of(source, values, progress, threads=threads, **of_array)

@@ -163,7 +163,7 @@ def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
     Parameters
     ----------
     source : Core, array_like or image
-        A Core, or an array with the arguments of core() beside it.
+        A Core, or an array with the arguments of core() beside it; connectivity is then 'joined' by default.
     sliver : float or str, mm, default '3vox'
         Sheets that stand out from their seams by less join the sheet they continue.
     threads : int, default 0
@@ -194,6 +194,7 @@ def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
     """
     of_array = not isinstance(source, Core)
     if of_array:
+        _arguments.join_pieces(options, options.get("connectivity", "joined"))
         source = core(source, threads=threads, progress=_arguments.share(progress, 0, 0.9), **options)
         if not isinstance(source, Core):
             raise ValueError("label, split_components: give one label; make cores first, then the sheets of each")

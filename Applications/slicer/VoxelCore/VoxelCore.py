@@ -52,6 +52,8 @@ class VoxelCoreWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         ("standOut", "standOutLineEdit", "text"),
         ("pruneBranches", "pruneBranchesLineEdit", "text"),
         ("root", "rootComboBox", "currentText"),
+        ("connectivity", "connectivityComboBox", "currentText"),
+        ("tree", "treeCheckBox", "checked"),
         ("fillCavities", "fillCavitiesCheckBox", "checked"),
         ("minVoxels", "minVoxelsSpinBox", "value"),
         ("border", "borderComboBox", "currentText"),

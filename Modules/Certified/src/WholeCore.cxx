@@ -135,7 +135,6 @@ MakeWholeCore(const VoxelShape &       voxels,
   {
     ReportProgress(plan.Next("shape"), "", 0);
     result.shape.topology = ComputeShapeTopology(voxels);
-    result.fine = FindFineTopology(voxels, result.shape.topology);
     std::vector<LatticePoint> points = BoundaryVertices(voxels);
     result.boundaryVertices = points.size();
     seconds.shape += watch.Lap();

@@ -91,6 +91,16 @@ public:
     return m_Threshold;
   }
 
+  /** Which voxels hang together: "6" (unless set), those that share a face; "26", those that touch over edges and
+   *  corners, too, which the least change then makes share faces; "joined": pieces that touch are joined, and nothing
+   *  else changes. With "6" a warning says where pieces touch. */
+  itkSetStringMacro(Connectivity);
+  const std::string &
+  GetConnectivity() const
+  {
+    return m_Connectivity;
+  }
+
   /** Take the nearest orthonormal direction where the image's is none, instead of refusing it. */
   itkSetMacro(Orthonormalize, bool);
   itkGetConstMacro(Orthonormalize, bool);
@@ -138,6 +148,7 @@ private:
   std::string                              m_Labels{ "all" };
   bool                                     m_Binary{ false };
   std::optional<std::pair<double, double>> m_Threshold;
+  std::string                              m_Connectivity{ "6" };
   bool                                     m_Orthonormalize{ false };
   std::unique_ptr<VoxelShapeAssembler>     m_Assembler; ///< while streaming
 };

@@ -212,8 +212,13 @@ LabelImageToVoxelShapeFilter<TInputImage>::AfterStreamedGenerateData()
     this->InvokeEvent(AbortEvent());
     this->ThrowIfAborted();
   }
-  this->GetOutput()->SetLabels(m_Assembler->TakeShapes());
+  std::vector<std::string> warnings;
+  this->GetOutput()->SetLabels(m_Assembler->TakeShapes(m_Connectivity, warnings));
   m_Assembler.reset();
+  for (const std::string & warning : warnings)
+  {
+    itkWarningMacro(<< warning);
+  }
   // It cleared them, and ReleaseInputs, which comes next, asks for them.
   this->RestoreInputReleaseDataFlags();
 }
@@ -246,6 +251,7 @@ LabelImageToVoxelShapeFilter<TInputImage>::PrintSelf(std::ostream & os, Indent i
   {
     os << "none" << std::endl;
   }
+  os << indent << "Connectivity: " << m_Connectivity << std::endl;
   os << indent << "Orthonormalize: " << (m_Orthonormalize ? "On" : "Off") << std::endl;
 }
 

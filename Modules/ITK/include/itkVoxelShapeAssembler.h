@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace itk
@@ -45,9 +46,11 @@ public:
   void
   AddRows(const void * rows, std::uint64_t firstRow, std::size_t rowCount);
 
-  /** \throws ExceptionObject when a label asked for, or anything but background, is missing. */
+  /** The shapes, their voxels hanging together as `connectivity` says: "6", "26" or "joined". Adds to `warnings` which
+   *  have pieces that "joined" would join. \throws ExceptionObject when a label asked for, or anything but background,
+   *  is missing, and where 26 is refused. */
   std::vector<voxelcore::LabelShape>
-  TakeShapes();
+  TakeShapes(const std::string & connectivity, std::vector<std::string> & warnings);
 
 private:
   struct State;

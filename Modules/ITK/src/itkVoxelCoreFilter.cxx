@@ -78,8 +78,10 @@ VoxelCoreFilter::GenerateData()
       request.engine = m_Engine;
       auto result = voxelcore::ComputeCertified(label.shape, input.GetGeometry(), request, progress);
       result.cores.front().core.label = label.value;
-      parts.push_back({ voxelcore::OriginOf(result, label.value, label.name, label.voxels),
-                        std::make_shared<const voxelcore::CertifiedCore>(std::move(result.cores.front())) });
+      voxelcore::CoreOrigin origin = voxelcore::OriginOf(result, label.value, label.name, label.voxels);
+      origin.connectivity = label.connectivity;
+      parts.push_back(
+        { std::move(origin), std::make_shared<const voxelcore::CertifiedCore>(std::move(result.cores.front())) });
     });
   });
   this->GetOutput()->SetParts(std::move(parts));

@@ -2,6 +2,7 @@
 
 #include "itkErrors.h"
 #include "voxelcore/CheckedGeometry.h"
+#include "voxelcore/ShapeEdits.h"
 
 namespace itk
 {
@@ -15,6 +16,7 @@ constexpr const char * kName = "the input image"; // where a scan's message name
 
 struct VoxelShapeAssembler::State
 {
+  voxelcore::ImageGeometry                   geometry;
   std::unique_ptr<voxelcore::LabelAssembler> assembler;
 };
 
@@ -29,6 +31,7 @@ VoxelShapeAssembler::VoxelShapeAssembler(const voxelcore::ImageGeometry & geomet
                                          const voxelcore::LabelChoice &   choice)
   : m_State(std::make_unique<State>())
 {
+  m_State->geometry = geometry;
   WithItkErrors(kAssembler, [&] {
     m_State->assembler = std::make_unique<voxelcore::LabelAssembler>(kName, geometry, pixel, choice);
   });
@@ -49,9 +52,13 @@ VoxelShapeAssembler::AddRows(const void * rows, std::uint64_t firstRow, std::siz
 }
 
 std::vector<voxelcore::LabelShape>
-VoxelShapeAssembler::TakeShapes()
+VoxelShapeAssembler::TakeShapes(const std::string & connectivity, std::vector<std::string> & warnings)
 {
-  return WithItkErrors(kAssembler, [&] { return m_State->assembler->TakeShapes(); });
+  return WithItkErrors(kAssembler, [&] {
+    auto shapes = m_State->assembler->TakeShapes();
+    warnings = voxelcore::ConnectLabels(shapes, m_State->geometry, voxelcore::RequireConnectivity(connectivity), kName);
+    return shapes;
+  });
 }
 
 } // namespace itk

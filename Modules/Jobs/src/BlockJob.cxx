@@ -194,7 +194,7 @@ ComputeFromWhole(const BlockOptions & options,
     kept = ScanPlan{ PlanSource(options), {} };
   }
   result.warnings = volume.warnings;
-  for (std::string & warning : FindHollowLabels(edited.labels, weights.weight))
+  for (std::string & warning : DiagnoseLabels(edited.labels, weights.weight))
   {
     result.warnings.push_back(std::move(warning));
   }

@@ -1,10 +1,9 @@
 #include "voxelcore/CoreJob.h"
 
-#include "BorderNotes.h"
+#include "SkeletonNotes.h"
 #include "CoreJobSteps.h"
 #include "DisplayFiles.h"
 #include "FacelessLabels.h"
-#include "NoisyLabels.h"
 #include "FolderLabels.h"
 #include "JobTools.h"
 #include "voxelcore/LabelLoop.h"
@@ -21,8 +20,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <future>
+#include <map>
 #include <numeric>
 #include <omp.h>
+#include <tuple>
 #include <utility>
 
 namespace voxelcore
@@ -65,6 +66,10 @@ DescribeParameters(const CoreOptions &    options,
   parameters.reading.crop = volume.crop;
   parameters.resolution = options.resolution;
   parameters.edits = options.edits;
+  if (options.edits.connectivity == Connectivity::Joined && !edited.touched)
+  {
+    parameters.edits.connectivity = Connectivity::Six; // where no pieces touch, both are one
+  }
   parameters.further = options.further;
   for (const Lambda & lambda : options.lambdas)
   {
@@ -211,7 +216,7 @@ StageCoreJob(const CoreOptions & options,
   {
     seen(edited.labels, volume.geometry);
   }
-  const std::vector<std::string> hollow = FindHollowLabels(edited.labels, weights.weight);
+  const std::vector<std::string> found = DiagnoseLabels(edited.labels, weights.weight);
   if (options.memory)
   {
     RequireMemory(options, edited.labels);
@@ -237,7 +242,7 @@ StageCoreJob(const CoreOptions & options,
   report.input = DescribeInput(options, volume);
   report.parameters = DescribeParameters(options, volume, edited, weights);
   result.warnings = volume.warnings;
-  result.warnings.insert(result.warnings.end(), hollow.begin(), hollow.end());
+  result.warnings.insert(result.warnings.end(), found.begin(), found.end());
   result.notes.insert(result.notes.end(), edited.notes.begin(), edited.notes.end());
   report.seconds.read = watch.Lap();
 
@@ -246,8 +251,15 @@ StageCoreJob(const CoreOptions & options,
   ResultFiles                 files(options, toFolder, transaction, result);
   std::optional<FolderLabels> folder;
   std::vector<std::string>    failures;
+  // What was seen in labels that an earlier run finished; its files do not say.
+  std::map<std::pair<std::int64_t, std::int64_t>, std::pair<std::optional<HollowBody>, std::optional<MaskDiagnosis>>>
+    looks;
   if (labelByLabel)
   {
+    for (const EditedLabel & one : edited.labels)
+    {
+      looks[{ one.label.value, one.component }] = { one.hollow, one.diagnosis };
+    }
     report.input.sha256 = digest.get();
     folder.emplace(options, edited.labels, files, skeletons ? &*skeletons : nullptr, transaction, report);
     if (const std::size_t finished = folder->CountFinished(); finished > 0)
@@ -258,6 +270,7 @@ StageCoreJob(const CoreOptions & options,
   }
   const auto takeFinished = [&] {
     folder->TakeFinished([&](FinishedLabels::Label label) {
+      std::tie(label.record.hollow, label.record.diagnosis) = looks.at({ label.record.label, label.record.component });
       files.AddFinished(std::move(label.record));
       if (skeletons)
       {
@@ -357,8 +370,8 @@ StageCoreJob(const CoreOptions & options,
     faces.push_back(label.core.faces);
   }
   TellFacelessLabels(report, faces, result.notes, result.warnings);
-  TellNoisyLabels(report, result.warnings);
   TellBorderCuts(report, result.notes);
+  TellShortLoops(report, result.notes);
   report.seconds.total = total.Lap();
   report.peakMemoryMb = PeakMemoryMb();
   if (options.report)

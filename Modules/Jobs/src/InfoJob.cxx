@@ -48,33 +48,11 @@ BoxText(const VoxelBox & box)
   return text;
 }
 
-/** What surprises those who count voxels that touch at edges or corners as one piece; empty where nobody would be. */
-std::vector<std::string>
-NotableLabels(const std::vector<LabelInfo> & labels)
+std::string
+BettiText(const TopologyNumbers & numbers)
 {
-  constexpr std::size_t    shown = 10;
-  std::vector<std::string> lines;
-  std::size_t              more = 0;
-  for (const LabelInfo & label : labels)
-  {
-    if (label.components26 >= label.topology.betti[0])
-    {
-      continue;
-    }
-    if (lines.size() == shown)
-    {
-      ++more;
-      continue;
-    }
-    lines.push_back(LabelText(label.label, label.name) + ": " + std::to_string(label.topology.betti[0]) +
-                    " pieces; voxels that touch only at edges or corners count as apart, else there would be " +
-                    std::to_string(label.components26) + ": --connectivity 26 joins them");
-  }
-  if (more > 0)
-  {
-    lines.push_back("the same holds for " + std::to_string(more) + " more labels");
-  }
-  return lines;
+  const auto & [pieces, loops, cavities] = numbers.betti;
+  return std::to_string(pieces) + "/" + std::to_string(loops) + "/" + std::to_string(cavities);
 }
 
 /** Bars as long as their share of the longest. */
@@ -173,7 +151,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   try
   {
     const SpacingWeights weights = ScanWeights(info.geometry, options.scan);
-    for (std::string & warning : FindHollowLabels(edited.labels, weights.weight))
+    for (std::string & warning : DiagnoseLabels(edited.labels, weights.weight))
     {
       info.warnings.push_back(std::move(warning));
     }
@@ -203,7 +181,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   skeletons.skeletonOutput = "skeleton.vtp";
   info.skeleton = PredictJob(boundaries, skeletons, info.threads);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
-  for (const auto & [label, component, edits, hollow] : edited.labels)
+  for (const auto & [label, component, edits, hollow, diagnosis] : edited.labels)
   {
     ReportProgress(counting, "", static_cast<double>(info.labels.size()) / static_cast<double>(edited.labels.size()));
     LabelInfo one;
@@ -214,7 +192,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
     one.volumeMm3 = static_cast<double>(label.voxels) * voxelMm3;
     one.box = label.shape.Box();
     one.topology = ComputeShapeTopology(label.shape);
-    one.components26 = CountComponents26(label.shape);
+    one.closed = ComputeClosedTopology(label.shape);
     one.boundary = boundaries[info.labels.size()];
     one.cost = PredictJob({ one.boundary }, defaults, info.threads);
     info.labels.push_back(std::move(one));
@@ -286,25 +264,20 @@ InfoText(const ScanInfo & info)
                                                 "volume " + unit.Name(3),
                                                 "voxel box",
                                                 "b0/b1/b2",
-                                                "26-components",
+                                                "b0/b1/b2 by 26",
                                                 "boundary vertices" } };
   for (const LabelInfo & label : info.labels)
   {
-    const auto & betti = label.topology.betti;
     rows.push_back({ std::to_string(label.label),
                      label.name,
                      std::to_string(label.voxels),
                      unit.Text(label.volumeMm3, 3, 3),
                      BoxText(label.box),
-                     std::to_string(betti[0]) + "/" + std::to_string(betti[1]) + "/" + std::to_string(betti[2]),
-                     std::to_string(label.components26),
+                     BettiText(label.topology),
+                     BettiText(label.closed),
                      std::to_string(label.boundary.vertices) });
   }
   text += "\n" + FormatTable(rows);
-  for (const std::string & line : NotableLabels(info.labels))
-  {
-    text += "note: " + line + "\n";
-  }
   return text;
 }
 
@@ -326,7 +299,9 @@ InfoJson(const ScanInfo & info)
                      { "bounding_box", { { "lower", label.box.lower }, { "size", label.box.size } } },
                      { "euler", label.topology.euler },
                      { "betti", label.topology.betti },
-                     { "components_26", label.components26 },
+                     { "components_26", label.closed.betti[0] },
+                     { "euler_26", label.closed.euler },
+                     { "betti_26", label.closed.betti },
                      { "boundary_vertices", label.boundary.vertices },
                      { "core_memory_bytes", label.cost.memoryBytes },
                      { "core_seconds", label.cost.seconds } });
@@ -340,7 +315,8 @@ InfoJson(const ScanInfo & info)
                 { "origin_mm", info.geometry.origin },
                 { "direction", info.geometry.direction },
                 { "orientation", info.orientation },
-                { "notes", info.notes } };
+                { "notes", info.notes },
+                { "warnings", info.warnings } };
   if (info.geometry.unit == SpatialUnit::Voxels)
   {
     json["unit"] = UnitName(info.geometry.unit);

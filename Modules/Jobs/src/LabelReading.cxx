@@ -29,6 +29,10 @@ ReadScanLabels(const CoreOptions & options, StagePlan & plan, CoreReport & repor
                            plan.Next());
   read.surface = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
   read.warnings = volume.warnings;
+  for (std::string & warning : DiagnoseLabels(read.edited.labels, weights.weight))
+  {
+    read.warnings.push_back(std::move(warning));
+  }
   report.command = options.command;
   report.input = { options.scan.string(), {}, volume.format, volume.geometry, volume.notes };
   report.parameters = DescribeParameters(options, volume, read.edited, weights);

@@ -38,6 +38,7 @@ DescribeLabel(const EditedLabel & edited, const ImageGeometry & geometry)
   record.component = edited.component;
   record.edits = edited.edits;
   record.hollow = edited.hollow;
+  record.diagnosis = edited.diagnosis;
   record.name = label.name;
   record.voxels = label.voxels;
   record.volumeMm3 =
@@ -61,7 +62,6 @@ ProcessLabel(EditedLabel              edited,
   CertifiedResult result = ComputeCertified(std::move(label.shape), geometry, request, progress);
   record.boundaryVertices = result.boundaryVertices;
   record.shape = result.shape.topology;
-  record.fine = result.fine;
   record.core = result.whole;
   // No result without a certificate.
   record.topologyEqual = true;

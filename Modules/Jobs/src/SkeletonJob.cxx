@@ -1,6 +1,6 @@
 #include "voxelcore/SkeletonJob.h"
 
-#include "BorderNotes.h"
+#include "SkeletonNotes.h"
 #include "DisplayFiles.h"
 #include "JobTools.h"
 #include "voxelcore/ComplexTopology.h"
@@ -118,6 +118,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     result.notes.push_back(options.input.string() + " is pruned at tolerance " + report.skeleton->tolerance->text +
                            ": tips are that much shorter; for all of them make the core with --lambda 0");
   }
+  TellConnectivity(options.input, report, result.notes);
   TellClosedBorder(report, result.notes);
   ReportProgress(context.progress, "writing", 0.95);
   files.Finish(report, result.notes);

@@ -48,6 +48,12 @@ public:
   vtkSetMacro(Label, vtkTypeInt64);
   vtkGetMacro(Label, vtkTypeInt64);
 
+  /** Which voxels hang together: "6", as at first, those that share a face; "26", those that touch over edges and
+   *  corners, too, which the least change then makes share faces; "joined": pieces that touch are joined, and nothing
+   *  else changes. With "6" a warning says where pieces touch. */
+  vtkSetStdStringFromCharMacro(Connectivity);
+  vtkGetCharFromStdStringMacro(Connectivity);
+
   /** The whole voxel core, neither pruned nor refined; off at first. */
   vtkSetMacro(WholeCore, bool);
   vtkGetMacro(WholeCore, bool);
@@ -101,6 +107,7 @@ private:
   operator=(const vtkVoxelCoreFilter &) = delete;
 
   vtkTypeInt64                  Label = 0;
+  std::string                   Connectivity = "6";
   bool                          WholeCore = false;
   std::string                   Tolerance = "1.2diag";
   bool                          Refine = true;

@@ -6,6 +6,7 @@
 #include "voxelcore/CoreProvenance.h"
 #include "voxelcore/LabelAssembler.h"
 #include "voxelcore/ModelPolyData.h"
+#include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SpatialUnit.h"
 
 #include <vtkDataArray.h>
@@ -123,6 +124,7 @@ vtkVoxelCoreFilter::PrintSelf(ostream & os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Label: " << this->Label << "\n";
+  os << indent << "Connectivity: " << this->Connectivity << "\n";
   os << indent << "WholeCore: " << (this->WholeCore ? "On" : "Off") << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "Refine: " << (this->Refine ? "On" : "Off") << "\n";
@@ -209,7 +211,12 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
     }
     const voxelcore::ImageGeometry geometry = GeometryOf(*image, this->ImageToLPS, this->LengthsInVoxels);
     auto                           shapes = ShapesOf(*values, geometry, this->Label);
-    voxelcore::MedialModel         model;
+    for (const std::string & warning :
+         voxelcore::ConnectLabels(shapes, geometry, voxelcore::RequireConnectivity(this->Connectivity), "the image"))
+    {
+      vtkWarningMacro(<< warning);
+    }
+    voxelcore::MedialModel model;
     model.unit = geometry.unit;
     model.inLps = this->ImageToLPS || this->ImageIsInLPS || !image->GetDirectionMatrix()->IsIdentity();
     std::vector<voxelcore::CoreOrigin>  origins;
@@ -236,6 +243,7 @@ vtkVoxelCoreFilter::RequestData(vtkInformation *, vtkInformationVector ** inputs
       model.parts.push_back(std::move(result.cores.front().core));
       model.parts.back().label = label.value;
       origins.push_back(voxelcore::OriginOf(result, label.value, label.name, label.voxels));
+      origins.back().connectivity = label.connectivity;
       prunings.push_back(voxelcore::PruningOf(result.cores.front().numbers));
       model.refined = prunings.back().refined;
       before += share;

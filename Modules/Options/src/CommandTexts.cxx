@@ -22,7 +22,7 @@ A --lambda given with --tolerance is applied first. Guide: choosing-the-pruning.
 
 Shape edits run label by label in this order: --median, --denoise, --mend-shape, --close, --fill-hollows, --fill-slices,
 --connectivity, --fill-cavities, --min-voxels, --largest, --smooth-shape, --simplify-topology, --split-components.
-Components are 6-connected: voxels that touch over edges or corners are joined by --connectivity 26.
+Components are 6-connected: pieces that touch over edges or corners are joined by --connectivity joined.
 --mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md
 
 What a tolerance leaves is refined from the labels: moved by up to a voxel to the axis of the smooth shape behind

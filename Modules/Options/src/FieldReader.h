@@ -61,7 +61,7 @@ private:
   void
   Read(const Parameter & row, Connectivity & value) const
   {
-    value = m_Reader.Choice(row.name) == "26" ? Connectivity::TwentySix : Connectivity::Six;
+    value = *ConnectivityNamed(m_Reader.Choice(row.name));
   }
 
   template <typename T>
@@ -175,6 +175,12 @@ ReadScanFields(const ParameterReader & reader, TOptions & options)
     }
     topology = { 1, 0, 0 };
     options.edits.simplify = options.edits.simplify ? options.edits.simplify : ParseGapWidth("3vox");
+  }
+  // Simplification joins as many of the pieces that touch as it is asked for.
+  if (options.edits.simplify && !reader.IsGiven("connectivity") &&
+      (options.edits.topology.pieces || !options.edits.topology.IsGiven()))
+  {
+    options.edits.connectivity = Connectivity::Six;
   }
   constexpr bool simplifiesAnyhow = requires
   {

@@ -77,12 +77,18 @@ LabelJson(const LabelRecord & label, bool inFile)
   json["bounding_box"] = { { "lower", label.box.lower }, { "size", label.box.size } };
   json["boundary_vertices"] = label.boundaryVertices;
   json["shape"] = TopologyJson(label.shape);
-  if (!inFile && label.fine)
+  if (!inFile && label.diagnosis)
   {
-    json["shape"]["less_than_three_voxels_wide"] = { { "loops", label.fine->loops },
-                                                     { "cavities", label.fine->cavities },
-                                                     { "pieces_a_voxel_apart", label.fine->joined },
-                                                     { "pieces_below_27_voxels", label.fine->specks } };
+    json["diagnosis"] = { { "touching_pieces", label.diagnosis->touching },
+                          { "touching_voxels", label.diagnosis->touchingVoxels },
+                          { "islands", label.diagnosis->islands },
+                          { "island_voxels", label.diagnosis->islandVoxels },
+                          { "largest_island_voxels", label.diagnosis->largestIsland },
+                          { "pieces_a_voxel_apart", label.diagnosis->torn },
+                          { "loops_a_voxel_wide", label.diagnosis->loops },
+                          { "bridges_a_voxel_wide", label.diagnosis->bridges },
+                          { "cavities_a_voxel_wide", label.diagnosis->cavities },
+                          { "options", label.diagnosis->NoiseOptions() } };
   }
   if (!label.hasCore)
   {

@@ -92,6 +92,16 @@ EditRecordJson(const EditRecord & edits, bool inFile)
       json["connected"]["changes"] = VoxelChangesText(edits.connected->changes);
     }
   }
+  if (edits.touching)
+  {
+    json["touching"] = { { "pieces_joined", edits.touching->piecesJoined },
+                         { "pieces_apart", edits.touching->piecesApart },
+                         { "voxels_added", edits.touching->voxelsAdded } };
+    if (!inFile)
+    {
+      json["touching"]["changes"] = VoxelChangesText(edits.touching->changes);
+    }
+  }
   if (edits.smoothed)
   {
     json["smoothed"] = { { "voxels_added", edits.smoothed->voxelsAdded },

@@ -89,7 +89,16 @@ ValueJson(SliceAxis axis)
 Json
 ValueJson(Connectivity connectivity)
 {
-  return connectivity == Connectivity::Six ? Json(nullptr) : Json(static_cast<int>(connectivity));
+  switch (connectivity)
+  {
+    case Connectivity::Six:
+      return nullptr;
+    case Connectivity::TwentySix:
+      return static_cast<int>(connectivity);
+    case Connectivity::Joined:
+      break;
+  }
+  return std::string(ConnectivityName(connectivity));
 }
 
 template <typename T>
@@ -181,11 +190,12 @@ ReadValue(const Json & json, SliceAxis & axis)
 void
 ReadValue(const Json & json, Connectivity & connectivity)
 {
-  if (json.get<int>() != static_cast<int>(Connectivity::TwentySix))
+  const auto named = ConnectivityNamed(json.is_string() ? json.get<std::string>() : std::to_string(json.get<int>()));
+  if (!named)
   {
     throw InputError("its connectivity is none");
   }
-  connectivity = Connectivity::TwentySix;
+  connectivity = *named;
 }
 
 template <typename T>

@@ -116,6 +116,14 @@ ReadEditRecord(const Json & json)
     from.at("voxels_added").get_to(connected.voxelsAdded);
     from.at("voxels_removed").get_to(connected.voxelsRemoved);
   }
+  if (json.contains("touching"))
+  {
+    const Json &           from = json.at("touching");
+    EditRecord::Touching & touching = MakeNew(edits.touching);
+    from.at("pieces_joined").get_to(touching.piecesJoined);
+    from.at("pieces_apart").get_to(touching.piecesApart);
+    from.at("voxels_added").get_to(touching.voxelsAdded);
+  }
   if (json.contains("smoothed"))
   {
     const Json &           from = json.at("smoothed");
@@ -272,13 +280,6 @@ ParseLabelRecord(const std::string & text)
         label.pruned[i].refined->radiusMargin = MarginNumbers{ AtLength(pruned, "mean_radius_margin_mm").get<double>(),
                                                                AtLength(pruned, most).get<double>() };
       }
-    }
-    if (const auto fine = json.at("shape").find("less_than_three_voxels_wide"); fine != json.at("shape").end())
-    {
-      label.fine = FineTopology{ fine->at("loops").get<std::uint64_t>(),
-                                 fine->at("cavities").get<std::uint64_t>(),
-                                 fine->at("pieces_a_voxel_apart").get<std::uint64_t>(),
-                                 fine->at("pieces_below_27_voxels").get<std::uint64_t>() };
     }
     if (json.at("certificate").contains("covered"))
     {

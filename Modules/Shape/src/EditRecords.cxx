@@ -66,6 +66,13 @@ AddEdits(const EditRecord & record, EditRecord & sum)
     all.voxelsAdded += one.voxelsAdded;
     all.voxelsRemoved += one.voxelsRemoved;
   }
+  if (record.touching)
+  {
+    auto & all = sum.touching ? *sum.touching : sum.touching.emplace(EditRecord::Touching());
+    all.voxelsAdded += record.touching->voxelsAdded;
+    all.piecesJoined += record.touching->piecesJoined;
+    all.piecesApart += record.touching->piecesApart;
+  }
   if (record.smoothed)
   {
     EditRecord::Smoothed & smoothed = sum.smoothed ? *sum.smoothed : sum.smoothed.emplace(EditRecord::Smoothed());
@@ -129,6 +136,17 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
       Counted(static_cast<std::uint64_t>(std::max<std::int64_t>(0, sum.connected->piecesJoined)), "piece", "pieces") +
       " fewer; " + Counted(sum.connected->voxelsAdded, "voxel", "voxels") + " added, " +
       std::to_string(sum.connected->voxelsRemoved) + " removed");
+  }
+  if (sum.touching)
+  {
+    notes.push_back(
+      "pieces that touch over edges and corners joined: " + Counted(sum.touching->piecesJoined, "piece", "pieces") +
+      " fewer, with " + Counted(sum.touching->voxelsAdded, "voxel", "voxels") +
+      (sum.touching->piecesApart > 0
+         ? "; " + std::to_string(sum.touching->piecesApart) +
+             " more touch where the mask is too rough: clean it with --denoise or --mend-shape"
+         : "") +
+      "; to keep them apart: --connectivity 6");
   }
   if (options.fillCavities && !(options.fillUnasked && sum.cavitiesFilled == 0))
   {

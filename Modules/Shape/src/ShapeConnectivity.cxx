@@ -4,6 +4,7 @@
 #include "GrowingPieces.h"
 #include "PaddedShape.h"
 #include "TouchingPieces.h"
+#include "voxelcore/Error.h"
 
 #include <algorithm>
 #include <bit>
@@ -585,7 +586,8 @@ public:
         }
       }
     }
-    return { std::move(m_Shape).Release(), std::move(m_Joints) };
+    const auto apart = static_cast<std::uint64_t>(m_Pieces.Count()) - m_Touching.Count();
+    return { std::move(m_Shape).Release(), std::move(m_Joints), apart };
   }
 
 private:
@@ -769,6 +771,36 @@ private:
 
 } // namespace
 
+std::string_view
+ConnectivityName(Connectivity connectivity)
+{
+  return connectivity == Connectivity::Six ? "6" : connectivity == Connectivity::TwentySix ? "26" : "joined";
+}
+
+std::optional<Connectivity>
+ConnectivityNamed(std::string_view name)
+{
+  for (const Connectivity one : { Connectivity::Six, Connectivity::TwentySix, Connectivity::Joined })
+  {
+    if (ConnectivityName(one) == name)
+    {
+      return one;
+    }
+  }
+  return std::nullopt;
+}
+
+Connectivity
+RequireConnectivity(std::string_view name)
+{
+  const auto connectivity = ConnectivityNamed(name);
+  if (!connectivity)
+  {
+    throw UsageError("--connectivity: '" + std::string(name) + "' is none; give 6, 26 or joined");
+  }
+  return *connectivity;
+}
+
 ConnectedShape
 ConnectOverCorners(const VoxelShape & shape, const ProgressCallback & progress)
 {
@@ -791,7 +823,7 @@ JoinTouchingPieces(const VoxelShape & shape, std::int64_t least)
   const std::vector<Voxel> contacts = FindContacts(mask);
   if (contacts.empty())
   {
-    return { mask, {} };
+    return { mask, {}, 0 };
   }
   return Joining(mask, contacts, least).Run(mask.Box());
 }

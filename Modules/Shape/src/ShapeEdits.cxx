@@ -158,7 +158,7 @@ EditShape(VoxelShape &             shape,
                    options.close ? 0.5 : 0.0,
                    options.fillHollows ? 0.5 : 0.0,
                    options.fillSlices ? 0.2 : 0.0,
-                   options.connectivity == Connectivity::TwentySix ? 0.3 : 0.0,
+                   options.connectivity != Connectivity::Six ? 0.3 : 0.0,
                    0.1,
                    options.smooth ? 1.0 : 0.0,
                    options.simplify ? 3.0 : 0.0 });
@@ -213,6 +213,18 @@ EditShape(VoxelShape &             shape,
   {
     record.connected = Connect(shape, label, connecting);
   }
+  else if (options.connectivity == Connectivity::Joined)
+  {
+    JoinedPieces joined = JoinTouchingPieces(shape);
+    if (!joined.joints.empty() || joined.piecesApart > 0)
+    {
+      record.touching = { joined.VoxelsAdded(),
+                          joined.PiecesJoined(),
+                          joined.piecesApart,
+                          ChangesBetween(shape, joined.shape) };
+      shape = std::move(joined.shape);
+    }
+  }
   ReportProgress(plan.Next("editing"), "", 0);
   // Filled before counting: a hollow thing counts as the solid it becomes, and dust in its cavity is no component any
   // longer.
@@ -264,7 +276,7 @@ EditShape(VoxelShape &             shape,
 }
 
 void
-Append(LabelShape label, const EditRecord & record, bool split, std::vector<EditedLabel> & labels)
+Append(LabelShape label, const std::optional<EditRecord> & record, bool split, std::vector<EditedLabel> & labels)
 {
   if (!split)
   {
@@ -282,6 +294,107 @@ Append(LabelShape label, const EditRecord & record, bool split, std::vector<Edit
         static_cast<std::int64_t>(i + 1),
         record });
   }
+}
+
+/** What is said of several labels in one line. */
+class OfLabels
+{
+public:
+  /** Nothing where the text is empty. */
+  void
+  Add(const LabelShape & label, const std::string & text)
+  {
+    constexpr std::size_t named = 5;
+    if (text.empty())
+    {
+      return;
+    }
+    if (++m_Count <= named)
+    {
+      m_Text += (m_Count > 1 ? "; " : "") + LabelText(label.value, label.name) + ": " + text;
+    }
+    m_More += m_Count > named ? 1 : 0;
+  }
+
+  bool
+  IsEmpty() const
+  {
+    return m_Count == 0;
+  }
+
+  std::string
+  Text() const
+  {
+    return m_Text + (m_More > 0 ? "; and those of " + Counted(m_More, "more label", "more labels") : std::string());
+  }
+
+private:
+  std::string   m_Text;
+  std::size_t   m_Count = 0;
+  std::uint64_t m_More = 0;
+};
+
+/** Empty where none do. */
+std::string
+TouchingText(const MaskDiagnosis & found)
+{
+  return found.touching == 0
+           ? std::string()
+           : Counted(found.touching, "piece touches", "pieces touch") + " others over edges or corners alone" +
+               (found.touchingVoxels > 0 ? " (" + ShareText(found.touchingVoxels, found.voxels) + " of the voxels)"
+                                         : std::string());
+}
+
+void
+TellTouching(const OfLabels & touching, std::vector<std::string> & told)
+{
+  if (!touching.IsEmpty())
+  {
+    told.push_back(touching.Text() + "; join them with --connectivity joined");
+  }
+}
+
+void
+TellNoise(const std::vector<EditedLabel> & labels, std::uint64_t leastPiece, std::vector<std::string> & warnings)
+{
+  constexpr std::uint64_t mostRemoved = 50; // one voxel in so many: what takes more says so
+  OfLabels                told;
+  MaskDiagnosis           all;
+  std::uint64_t           removed = 0;
+  bool                    isMuch = false;
+  std::string             first;
+  bool                    mayBeTrees = true;
+  for (const EditedLabel & one : labels)
+  {
+    if (one.diagnosis && one.diagnosis->IsNoisy())
+    {
+      const MaskDiagnosis & found = *one.diagnosis;
+      if (first.empty())
+      {
+        first = "--labels " + std::to_string(one.label.value) + " " + found.NoiseOptions();
+      }
+      told.Add(one.label, found.NoiseText());
+      all.loops += found.torn + found.loops + found.cavities;
+      all.islands += found.islands;
+      all.largestIsland = std::max(all.largestIsland, found.largestIsland);
+      removed += found.VoxelsRemoved();
+      all.voxels += found.voxels;
+      isMuch = isMuch || mostRemoved * found.VoxelsRemoved() > found.voxels;
+      mayBeTrees = mayBeTrees && found.MayBeTree() && !(one.edits && one.edits->simplified);
+    }
+  }
+  if (told.IsEmpty())
+  {
+    return;
+  }
+  // One number of voxels for all labels might take a true piece of another one.
+  const std::string options =
+    all.islands > 0 && all.largestIsland >= leastPiece ? "one by one, such as " + first : "with " + all.NoiseOptions();
+  warnings.push_back(
+    told.Text() + "; unless they are real, mend them " + options +
+    (isMuch ? ", which removes " + Counted(removed, "voxel", "voxels") + " (" + ShareText(removed, all.voxels) + ")"
+            : std::string()) +
+    (mayBeTrees ? "; for one tree, give --tree instead" : ""));
 }
 
 } // namespace
@@ -308,7 +421,10 @@ EditLabels(std::vector<LabelShape>  labels,
     throw InputError(where + ": --change-voxels changes one label, and here are " + std::to_string(labels.size()) +
                      "; choose one with --labels, or take all as one with --binary");
   }
-  EditRecord               sum;
+  EditRecord       sum;
+  ShapeEditOptions others = options;
+  others.connectivity = Connectivity::Six;
+  const bool               joinsOnly = options.connectivity == Connectivity::Joined && !others.AreAsked();
   std::vector<std::string> gone;
   std::vector<std::string> missed;
   for (std::size_t i = 0; i < labels.size(); ++i)
@@ -322,6 +438,7 @@ EditLabels(std::vector<LabelShape>  labels,
                 where + ": " + LabelText(label.value, label.name),
                 PartOfProgress(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     AddEdits(record, sum);
+    result.touched = result.touched || record.touching;
     if (record.simplified && !record.simplified->asAsked)
     {
       missed.push_back(LabelText(label.value, label.name) + ": the topology asked for was not reached within " +
@@ -338,7 +455,10 @@ EditLabels(std::vector<LabelShape>  labels,
       }
       continue;
     }
-    Append(std::move(label), record, options.splitComponents, result.labels);
+    Append(std::move(label),
+           joinsOnly && !record.touching ? std::nullopt : std::optional(record),
+           options.splitComponents,
+           result.labels);
   }
   if (result.labels.empty())
   {
@@ -354,9 +474,44 @@ EditLabels(std::vector<LabelShape>  labels,
 }
 
 std::vector<std::string>
-FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_t, 3> & weight)
+ConnectLabels(std::vector<LabelShape> & labels,
+              const ImageGeometry &     geometry,
+              Connectivity              connectivity,
+              const std::string &       where)
 {
-  const auto look = [&](EditedLabel & one) {
+  std::vector<std::string> told;
+  if (connectivity == Connectivity::Six)
+  {
+    OfLabels touching;
+    for (const LabelShape & label : labels)
+    {
+      touching.Add(label, TouchingText(DiagnoseTouching(label.shape)));
+    }
+    TellTouching(touching, told);
+    return told;
+  }
+  ShapeEditOptions options;
+  options.connectivity = connectivity;
+  EditedLabels edited = EditLabels(std::move(labels), geometry, options, true, where);
+  labels.clear();
+  for (EditedLabel & one : edited.labels)
+  {
+    labels.push_back(std::move(one.label));
+    labels.back().connectivity =
+      connectivity == Connectivity::Joined && !edited.touched ? Connectivity::Six : connectivity;
+  }
+  return told;
+}
+
+std::vector<std::string>
+DiagnoseLabels(std::vector<EditedLabel> &          labels,
+               const std::array<std::int64_t, 3> & weight,
+               const ProgressCallback &            progress)
+{
+  ReportProgress(progress, "", 0);
+  std::vector<std::uint64_t> least(labels.size());
+  const auto                 look = [&](std::size_t i) {
+    EditedLabel &                   one = labels[i];
     std::vector<const VoxelShape *> others;
     for (const EditedLabel & other : labels)
     {
@@ -366,14 +521,28 @@ FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_
       }
     }
     one.hollow = FindHollowBody(one.label.shape, weight, others);
+    MaskDiagnosis found = DiagnoseMask(one.label.shape);
+    if (one.edits && one.edits->mended) // what is a voxel wide now came of other edits, and mending does not help
+    {
+      found.torn = found.tornVoxels = found.loops = found.bridges = found.cavities = 0;
+    }
+    if (one.edits && one.edits->componentsRemoved > 0) // those that stay were chosen to
+    {
+      found.islands = found.islandVoxels = found.largestIsland = 0;
+    }
+    least[i] = found.leastPiece;
+    if (found.touching > 0 || found.IsNoisy())
+    {
+      one.diagnosis = found;
+    }
   };
   if (labels.size() == 1) // within a parallel region, even of one thread, each one in there would start threads anew
   {
-    look(labels.front());
+    look(0);
   }
   else
   {
-    RunEach(labels.size(), [&](std::size_t i) { look(labels[i]); });
+    RunEach(labels.size(), look);
   }
   std::vector<std::string> warnings;
   for (const EditedLabel & one : labels)
@@ -383,6 +552,13 @@ FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_
       warnings.push_back(LabelText(one.label.value, one.label.name) + " " + HollowText(*one.hollow));
     }
   }
+  OfLabels touching;
+  for (const EditedLabel & one : labels)
+  {
+    touching.Add(one.label, one.diagnosis ? TouchingText(*one.diagnosis) : std::string());
+  }
+  TellTouching(touching, warnings);
+  TellNoise(labels, least.empty() ? 0 : std::ranges::min(least), warnings);
   return warnings;
 }
 

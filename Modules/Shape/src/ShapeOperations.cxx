@@ -212,6 +212,15 @@ FillCavities(VoxelShape shape)
   return edited;
 }
 
+std::vector<std::uint64_t>
+ComponentSizes(const VoxelShape & shape)
+{
+  const Components           components = FindComponents(VoxelRuns(shape), false);
+  std::vector<std::uint64_t> sizes(components.voxels.begin(), components.voxels.end());
+  std::ranges::sort(sizes, std::greater());
+  return sizes;
+}
+
 std::vector<VoxelShape>
 SplitComponents(const VoxelShape & shape)
 {

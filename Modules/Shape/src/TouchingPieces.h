@@ -23,6 +23,8 @@ struct JoinedPieces
   VoxelShape         shape;  ///< in its tight box, which is that of the mask
   std::vector<Joint> joints; ///< as they were made
 
+  std::uint64_t piecesApart = 0; ///< that touch still, where it is too crowded or they were asked to
+
   /** By how many 6-connected pieces there are fewer. */
   std::uint64_t
   PiecesJoined() const

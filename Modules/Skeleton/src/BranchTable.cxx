@@ -74,6 +74,7 @@ SumBranches(const SkeletonGraph & graph, BranchTable & table)
   for (const BranchRecord & branch : table.branches)
   {
     numbers.totalLength += branch.length;
+    numbers.closingLength += branch.closesLoop ? branch.length : 0;
     numbers.maxLength = std::max(numbers.maxLength, branch.length);
     numbers.volume += branch.volume;
     numbers.surface += branch.surface;

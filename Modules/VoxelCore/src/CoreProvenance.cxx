@@ -73,6 +73,17 @@ ParametersJson(const ImageGeometry &           geometry,
   json["orthonormalize"] = false;
   json["nifti_form"] = "auto";
   json["crop"] = nullptr;
+  for (const CoreOrigin & origin : origins)
+  {
+    if (origin.connectivity == Connectivity::TwentySix)
+    {
+      json["connectivity"] = static_cast<int>(origin.connectivity);
+    }
+    else if (origin.connectivity != Connectivity::Six)
+    {
+      json["connectivity"] = ConnectivityName(origin.connectivity);
+    }
+  }
   json["mend_shape"] = false;
   json["fill_cavities"] = false;
   json["min_voxels"] = nullptr;

@@ -18,6 +18,8 @@ class Settings:
     standOut: str = "3vox"
     pruneBranches: str = "1r"
     root: str = "thickest"
+    connectivity: str = "joined"
+    tree: bool = False
     fillCavities: bool = False
     minVoxels: int = 0
     border: str = "flag"
@@ -42,6 +44,10 @@ class Settings:
     def steps(self):
         """What is run for each segment, as (command, options of that command by the names of the command line)."""
         edits = {}
+        if self.tree:  # which joins pieces by itself
+            edits["tree"] = True
+        else:
+            edits["connectivity"] = self.connectivity
         if self.fillCavities:
             edits["fill-cavities"] = True
         if self.minVoxels > 0:
@@ -76,8 +82,8 @@ PRESETS = {
         Settings(root="top", fillCavities=True),
     ),
     "Vessel": (
-        "Vessels and airways: skeleton, short stubs on the wall removed, enclosed holes filled.",
-        Settings(surface=False, pruneBranches="1.5r", fillCavities=True),
+        "Vessels and airways: skeleton of one tree, without loops; short stubs on the wall removed.",
+        Settings(surface=False, pruneBranches="1.5r", tree=True),
     ),
     "Bone": (
         "Trabecular bone and cortices: medial surface and local thickness; marrow spaces stay open.",

@@ -11,7 +11,6 @@
 #include "voxelcore/CertifiedSkeleton.h"
 #include "voxelcore/CertifiedThickness.h"
 #include "voxelcore/DelaunayCells.h"
-#include "voxelcore/FineTopology.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/SurfaceEstimate.h"
 
@@ -125,7 +124,6 @@ struct CertifiedSeconds
 struct CertifiedResult
 {
   CertifiedShape                    shape;
-  std::optional<FineTopology>       fine; ///< where much of the shape's topology is
   std::uint64_t                     boundaryVertices = 0;
   ComplexRecord                     whole; ///< of the whole core
   std::vector<CertifiedCore>        cores; ///< one per lambda or tolerance, in the order asked for

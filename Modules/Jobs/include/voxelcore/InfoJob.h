@@ -39,8 +39,8 @@ struct LabelInfo
   std::uint64_t   voxels = 0;
   double          volumeMm3 = 0;
   VoxelBox        box;
-  TopologyNumbers topology;         ///< of the voxel shape: 6-connected, b0 its components
-  std::int64_t    components26 = 0; ///< 26-connected components
+  TopologyNumbers topology; ///< of the voxel shape: 6-connected, b0 its components
+  TopologyNumbers closed;   ///< of the closed union of the voxels: 26-connected
   BoundaryCounts  boundary;
   CostPrediction  cost; ///< of its core alone
 };

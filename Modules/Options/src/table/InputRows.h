@@ -159,16 +159,14 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "Choose between the two geometries of a NIfTI file; auto follows ITK and Slicer" },
 });
 
+inline constexpr const char * kConnectivityHelp =
+  "Which voxels hang together: 6, those that share a face; 26, those that touch over edges and corners, too: the least "
+  "change makes them share faces and alters no piece, loop or cavity of the mask; joined: pieces that touch are "
+  "joined, and nothing else changes";
+
 inline constexpr auto kShapeEditRows = std::to_array<Parameter>({
-  { "connectivity",
-    "--connectivity",
-    Choice,
-    "6|26",
-    "6",
-    false,
-    kReads,
-    "Which voxels hang together: 6, those that share a face; 26, those that touch over edges and corners, too. With 26 "
-    "the least change makes them share faces and alters no piece, loop or cavity of the mask" },
+  { "connectivity", "--connectivity", Choice, "6|26|joined", "6", false, kReads & ~kJoins, kConnectivityHelp },
+  { "connectivity", "--connectivity", Choice, "6|26|joined", "joined", false, kJoins, kConnectivityHelp },
   { "smooth-shape",
     "--smooth-shape",
     Flag,

@@ -89,14 +89,14 @@ struct LabelRecord
   std::int64_t                  label = 0;
   std::int64_t                  component = 0; ///< from 1 by size; 0: the whole label
   std::string                   name;
-  std::optional<HollowBody>     hollow = std::nullopt; ///< in reports, not in files
-  std::optional<EditRecord>     edits;                 ///< of the whole label; none when none was asked for
+  std::optional<HollowBody>     hollow = std::nullopt;    ///< in reports, not in files
+  std::optional<MaskDiagnosis>  diagnosis = std::nullopt; ///< where there is something to say; in reports, not in files
+  std::optional<EditRecord>     edits;                    ///< of the whole label; none when none was asked for
   std::uint64_t                 voxels = 0;
   double                        volumeMm3 = 0;
   VoxelBox                      box; ///< tight
   std::uint64_t                 boundaryVertices = 0;
   TopologyNumbers               shape;
-  std::optional<FineTopology>   fine;           ///< where much of the shape's topology is; in reports, not in files
   bool                          hasCore = true; ///< false: none was made, or of parts alone; not in files
   ComplexRecord                 core;
   std::vector<PrunedRecord>     pruned; ///< one per lambda or tolerance, in the order given

@@ -3,6 +3,7 @@
 
 #include "voxelcore/CropRange.h"
 #include "voxelcore/ImageGeometry.h"
+#include "voxelcore/ShapeConnectivity.h"
 #include "voxelcore/StoredVoxels.h"
 #include "voxelcore/VoxelShape.h"
 
@@ -24,6 +25,8 @@ struct LabelShape
   VoxelShape    shape;      ///< in its tight bounding box
 
   std::optional<Color> color{}; ///< where a .seg.nrrd gives one, or a list beside the scan
+
+  Connectivity connectivity = Connectivity::Six; ///< by which ConnectLabels() made its voxels hang together
 };
 
 /** The labels of a scan, sorted by value. */

@@ -18,17 +18,34 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxelcore
 {
 
-/** Which neighbours of a voxel hang together with it: those over faces, or those over edges and corners, too. */
+/** Which neighbours of a voxel hang together with it: those over faces, or those over edges and corners, too; or these
+ *  where pieces would fall apart without them, and nowhere else, so that no loop and no cavity comes or goes. */
 enum class Connectivity
 {
   Six = 6,
-  TwentySix = 26
+  TwentySix = 26,
+  Joined = 0
 };
+
+/** "6", "26", "joined" */
+std::string_view
+ConnectivityName(Connectivity connectivity);
+
+/** None for other names. */
+std::optional<Connectivity>
+ConnectivityNamed(std::string_view name);
+
+/** \throws UsageError for other names */
+Connectivity
+RequireConnectivity(std::string_view name);
 
 /** A shape that hangs together over faces, made of a mask that hangs together over corners. */
 struct ConnectedShape

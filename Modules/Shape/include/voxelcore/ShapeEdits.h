@@ -4,6 +4,7 @@
 #include "voxelcore/HollowBody.h"
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LabelMap.h"
+#include "voxelcore/MaskDiagnosis.h"
 #include "voxelcore/Progress.h"
 #include "voxelcore/ShapeClosing.h"
 #include "voxelcore/ShapeConnectivity.h"
@@ -46,7 +47,7 @@ struct ShapeEditOptions
   bool
   AreAsked() const
   {
-    return median || denoise || mend || close || fillHollows || fillSlices || connectivity == Connectivity::TwentySix ||
+    return median || denoise || mend || close || fillHollows || fillSlices || connectivity != Connectivity::Six ||
            fillCavities || joinTorn || minVoxels || largest || smooth || simplify || change || splitComponents;
   }
 };
@@ -113,7 +114,16 @@ struct EditRecord
     std::array<std::int64_t, 3> difference{ 0, 0, 0 }; ///< it makes to pieces, loops and cavities
   };
 
-  /** What SimplifyWithin changed. */
+  /** What JoinTouchingPieces changed. */
+  struct Touching
+  {
+    std::uint64_t voxelsAdded = 0;
+    std::uint64_t piecesJoined = 0;
+    std::uint64_t piecesApart = 0; ///< that touch still
+    VoxelChanges  changes;         ///< all of them; reports have them, provenance in files does not
+  };
+
+  /** What SimplifyWithin changed, and before that JoinTouchingPieces. */
   struct Simplified
   {
     TopologyNumbers     before;
@@ -134,6 +144,7 @@ struct EditRecord
   std::optional<Filled>     hollows;    ///< when asked
   std::optional<Filled>     slices;     ///< when asked
   std::optional<Connected>  connected;  ///< when asked: mask read by 26-connectivity
+  std::optional<Touching>   touching;   ///< when asked: where pieces touched
   std::optional<Filled>     torn;       ///< when asked: pieces joined
   std::optional<Smoothed>   smoothed;   ///< when asked
   std::optional<Simplified> simplified; ///< when asked
@@ -146,13 +157,16 @@ struct EditedLabel
   LabelShape                label;         ///< of a component: its voxels, and the label's name with "#<component>"
   std::int64_t              component = 0; ///< from 1 by size when components are split; else 0
   std::optional<EditRecord> edits;         ///< of the whole label; none when nothing was asked
-  std::optional<HollowBody> hollow = std::nullopt; ///< filled by FindHollowLabels()
+  // Filled by DiagnoseLabels(), where there is something to say:
+  std::optional<HollowBody>    hollow = std::nullopt;
+  std::optional<MaskDiagnosis> diagnosis = std::nullopt;
 };
 
 struct EditedLabels
 {
-  std::vector<EditedLabel> labels; ///< by value, then component
-  std::vector<std::string> notes;  ///< what was changed in all, one sentence each
+  std::vector<EditedLabel> labels;          ///< by value, then component
+  std::vector<std::string> notes;           ///< what was changed in all, one sentence each
+  bool                     touched = false; ///< whether Connectivity::Joined found pieces that touch: else it is Six
 };
 
 /** Edits the labels of a scan, whose geometry says what widths mean. A label of which nothing is left is named in a
@@ -167,8 +181,21 @@ EditLabels(std::vector<LabelShape>  labels,
            const std::string &      where,
            const ProgressCallback & progress = {});
 
-/** Looks which of them look hollow, other labels taken for what fills lumens, and says so of each in a warning. */
+/** Makes the voxels of labels hang together, as for filters of other toolkits, and says so in each; with Six nothing
+ *  changes. Returns what a user should be told: with Six, which have pieces that touch over edges and corners alone.
+ *  \throws InputError with 26 where a mask is too rough for it, Cancelled */
 std::vector<std::string>
-FindHollowLabels(std::vector<EditedLabel> & labels, const std::array<std::int64_t, 3> & weight);
+ConnectLabels(std::vector<LabelShape> & labels,
+              const ImageGeometry &     geometry,
+              Connectivity              connectivity,
+              const std::string &       where);
+
+/** Looks once at the labels that a job is to work on: which look hollow, where other labels count as what fills lumens;
+ *  which have pieces that touch over edges and corners alone; and of which noise decides the topology. Says so in
+ *  warnings, each with the options that mend it. */
+std::vector<std::string>
+DiagnoseLabels(std::vector<EditedLabel> &          labels,
+               const std::array<std::int64_t, 3> & weight,
+               const ProgressCallback &            progress = {});
 
 } // namespace voxelcore

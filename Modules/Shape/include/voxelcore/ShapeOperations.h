@@ -49,6 +49,10 @@ KeepLargestComponents(VoxelShape shape, std::uint64_t count);
 EditedShape
 FillCavities(VoxelShape shape);
 
+/** The voxels of each component, the largest first. */
+std::vector<std::uint64_t>
+ComponentSizes(const VoxelShape & shape);
+
 /** Each component as a shape of its own, by number of voxels, the largest first; equally large ones by their first
  *  voxel in scan order. */
 std::vector<VoxelShape>

@@ -116,6 +116,7 @@ struct SkeletonNumbers
   std::int64_t closedFaces = 0;
   std::int64_t plateFaces = 0;
   double       totalLength = 0;
+  double       closingLength = 0; ///< part of it: of branches that close loops
   double       meanLength = 0;
   double       maxLength = 0;
   double       meanRadius = 0; ///< weighted by free length; by length where no branch has any

@@ -5,6 +5,7 @@
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/MedialComplex.h"
+#include "voxelcore/ShapeConnectivity.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/TopologyNumbers.h"
 #include "voxelcore/VoxelShape.h"
@@ -47,8 +48,9 @@ struct CoreOrigin
   VoxelBox        box; ///< tight
   std::uint64_t   boundaryVertices = 0;
   TopologyNumbers shape;
-  ComplexRecord   core;             ///< as PlaceInLps leaves it
-  bool            enclosed = false; ///< every vertex lies inside the shape
+  ComplexRecord   core;                             ///< as PlaceInLps leaves it
+  bool            enclosed = false;                 ///< every vertex lies inside the shape
+  Connectivity    connectivity = Connectivity::Six; ///< by which the shape's voxels were made to hang together
 };
 
 /** What a core is pruned to. */

@@ -1,6 +1,9 @@
-#include "BorderNotes.h"
+#include "SkeletonNotes.h"
+
+#include "JobTools.h"
 
 #include "voxelcore/SkeletonTexts.h"
+#include "voxelcore/Text.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -72,6 +75,57 @@ TellClosedBorder(const CoreReport & report, std::vector<std::string> & notes)
                             "body at the border of the scan ends there",
                             "bodies at the border of the scan end there") +
                     ", as in the core; for branches that run up to the border, give the scan instead of the core");
+  }
+}
+
+void
+TellShortLoops(const CoreReport & report, std::vector<std::string> & notes)
+{
+  constexpr double      little = 0.05; // airways of five teams have 0.4 to 1.3 %, an arch over a true ring more
+  constexpr std::size_t named = 5;
+  std::size_t           count = 0;
+  std::string           text;
+  for (const LabelRecord & label : report.labels)
+  {
+    const bool isTold = label.diagnosis && label.diagnosis->MayBeTree();
+    if (!label.skeleton || label.skeleton->network || isTold || (label.edits && label.edits->simplified))
+    {
+      continue;
+    }
+    const SkeletonNumbers & numbers = label.skeleton->numbers;
+    if (numbers.cycles > 0 && numbers.isolatedLoops == 0 && numbers.closingLength <= little * numbers.totalLength)
+    {
+      if (++count <= named)
+      {
+        text += (count > 1 ? "; " : "") + LabelText(label.label, label.name) + ": " +
+                Counted(static_cast<std::uint64_t>(numbers.cycles), "loop", "loops") + ", closed by " +
+                ShortText(100 * numbers.closingLength / numbers.totalLength, 2) + " % of the length";
+      }
+    }
+  }
+  if (count > 0)
+  {
+    notes.push_back(
+      text + (count > named ? "; and those of " + Counted(count - named, "more label", "more labels") : std::string()) +
+      "; to cut loops: --tree, or --simplify-topology 3vox --loops 0 where there are several pieces");
+  }
+}
+
+void
+TellConnectivity(const std::filesystem::path & input, const CoreReport & report, std::vector<std::string> & notes)
+{
+  const Connectivity connectivity = report.parameters.edits.connectivity;
+  const bool         hasPieces =
+    std::ranges::any_of(report.labels, [](const LabelRecord & label) { return label.shape.betti[0] > 1; });
+  if (connectivity != Connectivity::Six)
+  {
+    notes.push_back(input.string() + " was made with --connectivity " + std::string(ConnectivityName(connectivity)));
+  }
+  else if (hasPieces)
+  {
+    notes.push_back(input.string() +
+                    " has pieces that share no faces (--connectivity 6): where they touch over edges "
+                    "and corners, make the core with --connectivity joined to join them");
   }
 }
 
