@@ -387,6 +387,7 @@ TEST_F(RootsJob, TheLengthOfTheSkeletonIsOnRootsOrListed)
   EXPECT_LT(balance.bridges, 0.01 * balance.skeleton);
   const auto json = nlohmann::json::parse(Bytes("out/report.json")).at("roots").at("balance");
   EXPECT_NEAR(json.at("skeleton").get<double>(), balance.skeleton, 1e-4 * balance.skeleton);
+  EXPECT_NEAR(json.at("bulges").get<double>(), balance.bulges, 1e-4 * balance.skeleton);
   EXPECT_NE(RootsText(result).find("within their parents"), std::string::npos);
 }
 

@@ -408,6 +408,24 @@ TEST(RootHierarchy, TheReachOfAMeetingAtOneJunctionIsItsBallAndAFifth)
   EXPECT_DOUBLE_EQ(roots.meetings[0].reach, 2.4);
 }
 
+TEST(RootHierarchy, RootsOfAWhorlThatRunFusedNextToTheStemAllSpringFromIt)
+{
+  for (const auto & [fork, deepest] : { std::pair{ 15.0, 1 }, { 25.0, 2 } }) // 1.5 and 2.5 radii of the stem
+  {
+    GraphBuilder builder;
+    builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, 10);
+    builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 10);
+    builder.Line({ 0, 0, 50 }, { fork, 0, 50 }, 3);
+    builder.Line({ fork, 0, 50 }, { fork + 60, 20, 50 }, 2.5);
+    builder.Line({ fork, 0, 50 }, { fork + 60, -30, 40 }, 2.4);
+    RootRules rules;
+    rules.up = Vector3{ 0, 0, 1 };
+    const RootHierarchy roots = FindRoots(builder.Graph(), rules);
+    ASSERT_EQ(roots.axes.size(), 3U);
+    EXPECT_EQ(roots.axes.back().level, deepest) << fork;
+  }
+}
+
 TEST(RootHierarchy, NothingHasNoRoots)
 {
   EXPECT_TRUE(FindRoots(SkeletonGraph()).axes.empty());

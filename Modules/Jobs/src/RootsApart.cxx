@@ -11,6 +11,7 @@
 #include "voxelcore/ReadInput.h"
 #include "voxelcore/RootCentring.h"
 #include "voxelcore/RootContacts.h"
+#include "voxelcore/RootRoughness.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/TextFields.h"
 
@@ -162,7 +163,8 @@ RootsByValues(const ImageGeometry &             geometry,
               const CoreOptions &               core,
               const std::optional<BandValues> & values,
               const RootRules &                 rules,
-              const SkeletonGraph &             graph)
+              const SkeletonGraph &             graph,
+              const RootBulges &                bulges)
 {
   RootHierarchy roots = FindRoots(graph, rules);
   if (values)
@@ -171,6 +173,7 @@ RootsByValues(const ImageGeometry &             geometry,
     CentreByValues(geometry, core, *values, roots, centred);
     roots = FindRoots(centred, rules);
   }
+  roots.bulges = bulges;
   return roots;
 }
 
@@ -248,13 +251,14 @@ TellRootsApart(LabelShape &             mask,
   const auto            border = request.scan ? std::optional(frame.Enter(*request.scan)) : std::nullopt;
   mask.shape = MovedTo({ 0, 0, 0 }, whole);
   SkeletonGraph     graph = SkeletonOfMask(mask, geometry, border, core, PartOfProgress(progress, 0, 0.5));
+  const RootBulges  bulges = LeaveOutBulges(mask.shape, geometry, rules, graph);
   auto              torn = JoinTornRoots(graph, rules);
   const LatticeBall ball = BallOfDepth(request.depth, geometry);
   RootsTopology     topology;
   VoxelShape        kernel(mask.shape.Box());
   VoxelShape        neighbourhood = VoxelsAround(mask.shape, ball);
   const auto        values = ReadBand(core, frame, neighbourhood, PartOfProgress(progress, 0.5, 0.6));
-  RootHierarchy     roots = RootsByValues(geometry, core, values, rules, graph);
+  RootHierarchy     roots = RootsByValues(geometry, core, values, rules, graph, bulges);
   if (numbers.betti[0] == 1)
   {
     roots = editing(graph, roots, frame);
@@ -365,10 +369,11 @@ FindRootsByGrey(const VoxelShape &    mask,
   const RootRules       rules = InFrame(inScan, frame);
   frame.Enter(graph.positions);
   frame.Enter(graph.medial);
-  torn = JoinTornRoots(graph, rules);
   const VoxelShape body = MovedTo({ 0, 0, 0 }, whole);
-  const auto       values = ReadBand(core, frame, VoxelsAround(body, BallOfDepth(depth, geometry)), {});
-  RootHierarchy    roots = editing(graph, RootsByValues(geometry, core, values, rules, graph), frame);
+  const RootBulges bulges = LeaveOutBulges(body, geometry, rules, graph);
+  torn = JoinTornRoots(graph, rules);
+  const auto    values = ReadBand(core, frame, VoxelsAround(body, BallOfDepth(depth, geometry)), {});
+  RootHierarchy roots = editing(graph, RootsByValues(geometry, core, values, rules, graph, bulges), frame);
   if (values)
   {
     CentreByValues(geometry, core, *values, roots, graph);

@@ -122,6 +122,12 @@ AddRemarks(RootsResult & result)
   {
     result.notes.push_back(std::to_string(undecided - listed) + " more undecided contacts stand in report.json");
   }
+  if (model.roots.bulges.count > 0)
+  {
+    result.notes.push_back(Counted(static_cast<std::int64_t>(model.roots.bulges.count), "bulge", "bulges") +
+                           " left out, which stand out of their root no more than it is rough; to keep them, give "
+                           "--roughness 0");
+  }
   const auto loose = std::count_if(model.roots.axes.begin(), model.roots.axes.end(), [](const RootAxis & axis) {
     return axis.loose && axis.level == 0;
   });
@@ -144,13 +150,12 @@ JudgeHierarchy(RootsResult & result)
     throw CertificateError(unit.Text(balance.Missing()) + " " + unit.Name() + " of the skeleton's " +
                            unit.Text(balance.skeleton) + " belong to no root, and nothing says why");
   }
-  const double leftOut = balance.bridges + balance.removed;
-  if (leftOut > kTellLeftOut * balance.skeleton)
+  if (balance.LeftOut() > kTellLeftOut * balance.skeleton)
   {
-    result.warnings.push_back(unit.Text(leftOut) + " " + unit.Name() + " of the skeleton's " +
+    result.warnings.push_back(unit.Text(balance.LeftOut()) + " " + unit.Name() + " of the skeleton's " +
                               unit.Text(balance.skeleton) + " belong to no root: " + unit.Text(balance.bridges) +
                               " are bridges between roots that touch, " + unit.Text(balance.removed) +
-                              " were removed by edits");
+                              " were removed by edits, " + unit.Text(balance.bulges) + " stand out of rough roots");
   }
   double lateral = 0;
   for (std::size_t axis = 0; axis < traits.roots.size(); ++axis)

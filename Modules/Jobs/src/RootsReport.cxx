@@ -54,7 +54,7 @@ BalanceJson(const RootBalance & balance)
   return "{ \"skeleton\": " + JsonNumber(balance.skeleton) + ", \"roots\": " + JsonNumber(balance.roots) +
          ", \"within_parents\": " + JsonNumber(balance.within) + ", \"shared\": " + JsonNumber(balance.shared) +
          ", \"bridged\": " + JsonNumber(balance.bridged) + ", \"bridges\": " + JsonNumber(balance.bridges) +
-         ", \"removed\": " + JsonNumber(balance.removed) + " }";
+         ", \"removed\": " + JsonNumber(balance.removed) + ", \"bulges\": " + JsonNumber(balance.bulges) + " }";
 }
 
 /** What was cut and filled. */
@@ -141,9 +141,8 @@ RootsText(const RootsResult & result)
          " of roots, " + std::to_string(traits.undecidedContacts) + " undecided; " + std::to_string(traits.whorls) +
          (traits.whorls == 1 ? " whorl" : " whorls") + "; of the skeleton's " + unit.Text(traits.balance.skeleton) +
          " " + unit.Name() + " " + unit.Text(traits.balance.roots) + " on roots, " + unit.Text(traits.balance.within) +
-         " within their parents, " + unit.Text(traits.balance.bridges + traits.balance.removed) + " left out" +
-         "; depth " + unit.Text(traits.depth) + " " + unit.Name() + ", width " + unit.Text(traits.width) + " " +
-         unit.Name() + "\n";
+         " within their parents, " + unit.Text(traits.balance.LeftOut()) + " left out" + "; depth " +
+         unit.Text(traits.depth) + " " + unit.Name() + ", width " + unit.Text(traits.width) + " " + unit.Name() + "\n";
 }
 
 } // namespace voxelcore

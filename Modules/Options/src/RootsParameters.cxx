@@ -67,6 +67,7 @@ RootsOptionsFrom(const ParameterValues & values)
   {
     throw UsageError("--stem gives the only stem; leave out --stems");
   }
+  options.rules.bulge = reader.Real("roughness").value_or(options.rules.bulge);
   options.annotations = reader.FileIfGiven("edits").value_or("");
   options.soilDepth = reader.Real("soil-depth");
   options.prefix = reader.Text("prefix");

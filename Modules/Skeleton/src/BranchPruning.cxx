@@ -222,6 +222,16 @@ PruneBranches(SkeletonGraph & graph, const BranchLimit & limit)
 }
 
 std::size_t
+PruneBulges(SkeletonGraph & graph, const std::vector<double> & roughness, double ratio)
+{
+  const auto key = [&](double length, ElementIndex tip, ElementIndex base) {
+    const double standsOut = length + graph.radius[tip] - graph.radius[base];
+    return roughness[base] > 0 ? standsOut / roughness[base] : std::numeric_limits<double>::infinity();
+  };
+  return TipPruning(graph, key).Run(ratio);
+}
+
+std::size_t
 PruneCutEnds(SkeletonGraph & graph, const std::vector<LoopCut> & cuts, double standOut)
 {
   std::set<Vector3> places;

@@ -112,7 +112,8 @@ private:
     }
   }
 
-  /** What springs from a root where that is still within its own parent springs from the parent. */
+  /** What springs from a root where that is still within its own parent springs from the parent: of a stem as far as
+   *  roots of a whorl run fused. */
   ElementIndex
   ParentOf(ElementIndex lateral, ElementIndex root) const
   {
@@ -122,7 +123,8 @@ private:
     {
       const auto &       points = m_Roots.axes[above].points;
       const ElementIndex near = points[NearestPoint(graph, points, place)];
-      if (Distance(graph.positions[near], place) > kOutsideBall * graph.radius[near])
+      const double       reach = m_Roots.axes[above].level == 0 ? kStemReach : kOutsideBall;
+      if (Distance(graph.positions[near], place) > reach * graph.radius[near])
       {
         break;
       }

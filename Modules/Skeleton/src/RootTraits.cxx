@@ -179,6 +179,8 @@ private:
   Balance(const RootTraits & traits) const
   {
     RootBalance balance;
+    balance.bulges = m_Roots.bulges.length;
+    balance.skeleton = balance.bulges;
     for (std::size_t axis = 0; axis < m_Ways.size(); ++axis)
     {
       balance.roots += traits.roots[axis].length;

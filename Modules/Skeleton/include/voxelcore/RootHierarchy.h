@@ -21,7 +21,8 @@
 // 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker), by 0.2 for each
 //    junction on the way beyond that has most, and by up to 0.25 for the longest way beyond where they are alike in
 //    thickness; the others are its laterals, a level further out. What springs where the root is still within its own
-//    parent springs from the parent. The stem has level 0.
+//    parent, or within 1.7 radii of a stem, where roots of a whorl run fused, springs from the parent. The stem has
+//    level 0.
 // 6. Whorls. Laterals of a stem whose places along it follow each other by less than `whorlGap` stem radii form one if
 //    there are `whorlSize` of them or more.
 // Pieces that hang together with no stem have one of their own, marked as loose. `leftOut` says what is on no root.
@@ -46,6 +47,7 @@ struct RootRules
   double                 sharedLength = 4;   ///< longest stretch that two roots share, in sums of their radii
   double                 tornGap = 2;        ///< longest gap in a torn root, in sums of the radii at its ends; 0: none
   double                 tornSlack = 0;      ///< mm: so much longer where slices are so thick
+  double                 bulge = 4;          ///< what stands out by less than so many times the roughness is none
   double                 undecided = 0.15;   ///< margin below which a contact is marked
   double                 whorlGap = 1;       ///< in radii of the stem
   int                    whorlSize = 3;
@@ -97,6 +99,13 @@ enum class LeftOut : std::uint8_t
   Removed ///< with a root that a person removed
 };
 
+/** What stands out of a root no more than that is rough (RootRoughness.h): taken from the skeleton, on no root. */
+struct RootBulges
+{
+  std::size_t count = 0;
+  double      length = 0; ///< mm, of their branches
+};
+
 struct RootHierarchy
 {
   Vector3                   up{ 0, 0, 1 };
@@ -106,6 +115,7 @@ struct RootHierarchy
   std::vector<RootWhorl>    whorls; ///< from the base of each stem on
   std::vector<ElementIndex> rootOf; ///< per branch of the graph its axis; kNoRoot for a bridge between roots that touch
   std::vector<LeftOut>      leftOut; ///< per branch
+  RootBulges                bulges;
 };
 
 /** Joins what is torn: two tips that face each other, of which the thinner has at least half of the other's radius,

@@ -96,12 +96,18 @@ struct RootBalance
   double bridged = 0;  ///< in these two, but on no branch: an edit's line over a gap
   double bridges = 0;  ///< on no root: between roots that touch
   double removed = 0;  ///< on no root: taken off by an edit
+  double bulges = 0;   ///< on no root: bulges of roots that are rough
 
+  double
+  LeftOut() const
+  {
+    return bridges + removed + bulges;
+  }
   /** Length that is on no root for no reason: 0, or a rule has failed. */
   double
   Missing() const
   {
-    return skeleton - (roots + within - shared - bridged) - bridges - removed;
+    return skeleton - (roots + within - shared - bridged) - LeftOut();
   }
 };
 

@@ -137,6 +137,12 @@ CutLoops(SkeletonGraph & graph);
 std::size_t
 PruneCutEnds(SkeletonGraph & graph, const std::vector<LoopCut> & cuts, double standOut);
 
+/** Takes off branches with a tip that stand out of the ball at their other end by less than `ratio` times what
+ *  `roughness` says of the point there, the one that falls short of it most first, until none is left. A number per
+ *  point, in mm. Gives their number. */
+std::size_t
+PruneBulges(SkeletonGraph & graph, const std::vector<double> & roughness, double ratio);
+
 /** Gives each branch end points of its own: branches no longer hang together. */
 void
 SplitAtJunctions(SkeletonGraph & graph);
