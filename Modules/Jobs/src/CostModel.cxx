@@ -204,6 +204,19 @@ CountBoundaries(const std::vector<EditedLabel> & labels)
   return counts;
 }
 
+std::vector<BoundaryCounts>
+CountBoundariesUpToBorder(const std::vector<EditedLabel> & labels,
+                          const ImageGeometry &            geometry,
+                          const VoxelBox &                 scan,
+                          const SkeletonRequest &          request)
+{
+  std::vector<BoundaryCounts> counts(labels.size());
+  RunEach(labels.size(), [&](std::size_t i) {
+    counts[i] = CountBoundary(UpToBorder(labels[i].label.shape, geometry, scan, request).shape);
+  });
+  return counts;
+}
+
 CostPrediction
 PredictJob(const std::vector<BoundaryCounts> & labels,
            const CoreOptions &                 options,

@@ -118,7 +118,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   const JobContext context = ForwardOnly(given);
   StagePlan        plan(context.progress, { 0.4, 0.2, 0.4 });
   ScanInfo         info;
-  LabelMap         volume;
+  InputScan        volume;
   try
   {
     volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
@@ -126,7 +126,7 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   catch (const GreyScanError & error)
   {
     info.grey = error.grey;
-    volume = error.scan;
+    volume = { error.scan, {} };
   }
   const ProgressCallback editing = plan.Next();
   EditedLabels           edited;
@@ -148,9 +148,11 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   info.notes = std::move(volume.notes);
   info.notes.insert(info.notes.end(), edited.notes.begin(), edited.notes.end());
   info.warnings = std::move(volume.warnings);
+  bool hasCores = false;
   try
   {
     const SpacingWeights weights = ScanWeights(info.geometry, options.scan);
+    hasCores = true;
     for (std::string & warning : DiagnoseLabels(edited.labels, weights.weight))
     {
       info.warnings.push_back(std::move(warning));
@@ -179,7 +181,11 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   skeletons.lambdas = options.skeletonLambdas;
   skeletons.skeleton.emplace();
   skeletons.skeletonOutput = "skeleton.vtp";
-  info.skeleton = PredictJob(boundaries, skeletons, info.threads);
+  const std::optional<VoxelBox> scan = hasCores ? BorderOf(volume) : std::nullopt;
+  info.skeleton =
+    PredictJob(scan ? CountBoundariesUpToBorder(edited.labels, info.geometry, *scan, *skeletons.skeleton) : boundaries,
+               skeletons,
+               info.threads);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
   for (const auto & [label, component, edits, hollow, diagnosis] : edited.labels)
   {

@@ -94,6 +94,13 @@ PredictJob(const std::vector<BoundaryCounts> & labels,
 std::vector<BoundaryCounts>
 CountBoundaries(const std::vector<EditedLabel> & labels);
 
+/** Those of the bodies whose curves a skeleton has: they go on beyond the border of a scan that cuts them. */
+std::vector<BoundaryCounts>
+CountBoundariesUpToBorder(const std::vector<EditedLabel> & labels,
+                          const ImageGeometry &            geometry,
+                          const VoxelBox &                 scan,
+                          const SkeletonRequest &          request);
+
 /** "8GB", "500 MB", "1.5GiB": bytes. Units B, kB, MB, GB, TB (powers of 1000) and KiB, MiB, GiB, TiB, in any case.
  *  \throws UsageError, naming --memory, for anything else; a unit must be given. */
 std::uint64_t
