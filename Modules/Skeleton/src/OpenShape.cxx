@@ -81,6 +81,20 @@ OpenShape::Towards(const Vector3 & from, const Vector3 & to) const
 double
 OpenShape::DistanceToBoundary(const Vector3 & place, double least, double most) const
 {
+  // First where it is near: a search takes as long as the cube of how far it looks.
+  for (double reach = std::max(2 * least, 2 * VoxelDiagonal()); reach < most; reach *= 2)
+  {
+    if (const double found = DistanceWithin(place, least, reach); found < reach)
+    {
+      return found;
+    }
+  }
+  return DistanceWithin(place, least, most);
+}
+
+double
+OpenShape::DistanceWithin(const Vector3 & place, double least, double most) const
+{
   const Vector3   at = PhysicalToLattice(*m_Geometry, place);
   const Vector3 & spacing = m_Geometry->spacing;
   const double    slack = kSlack * *std::max_element(spacing.begin(), spacing.end());

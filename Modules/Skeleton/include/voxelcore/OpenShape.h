@@ -42,6 +42,10 @@ public:
   DistanceToBoundary(const Vector3 & place, double least, double most) const;
 
 private:
+  /** DistanceToBoundary(), which looks as far as `most` at once. */
+  double
+  DistanceWithin(const Vector3 & place, double least, double most) const;
+
   const VoxelShape *    m_Shape;
   const ImageGeometry * m_Geometry;
 };
