@@ -1,6 +1,8 @@
 #include "RootScore.h"
 
+#include "voxelcore/BodyFrame.h"
 #include "voxelcore/BranchTable.h"
+#include "voxelcore/LabelContacts.h"
 #include "voxelcore/Vectors.h"
 
 #include <gtest/gtest.h>
@@ -186,6 +188,45 @@ TEST(CrossSections, StenosesAndBulgesKeepTheirDepth)
     const double at = radius * (1 - depth);
     EXPECT_NEAR(least, std::min(radius, at), 0.3) << "radius " << radius << ", " << at << " within " << width;
     EXPECT_NEAR(most, std::max(radius, at), 0.3) << "radius " << radius << ", " << at << " within " << width;
+  }
+}
+
+TEST(CrossSections, OfAForkTheyDoNotDependOnWhereTheGridBegins)
+{
+  const Spacing3                         fork{ 30, 30, 30 };
+  std::vector<LabelShape>                tubes;
+  SkeletonGraph                          graph;
+  std::vector<std::vector<ElementIndex>> lines;
+  graph.positions = { fork };
+  for (const Spacing3 & end : { Spacing3{ 52, 30, 30 }, Spacing3{ 30, 52, 30 }, Spacing3{ 10, 10, 10 } })
+  {
+    const auto at = [&](double t) { return AddScaled(fork, t, Minus(end, fork)); };
+    tubes.push_back({ 1, "tube", 0, Tube(SampleCurve(at, 200), 4, { 60, 60, 60 }) });
+    lines.push_back({ 0 });
+    for (int step = 1; step <= 20; ++step)
+    {
+      lines.back().push_back(static_cast<ElementIndex>(graph.positions.size()));
+      graph.positions.push_back(at(0.05 * step));
+    }
+  }
+  graph.radius.assign(graph.positions.size(), 3.5);
+  SortBranches(graph, lines, false);
+  const VoxelShape          shape = UnionOfLabels(tubes);
+  const std::vector<double> radii = SectionRadiiOf(graph, shape, { 1, 1, 1 });
+  // The last branch now leads past the grid's origin.
+  VoxelBox box = shape.Box();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    box.lower[axis] -= 18;
+  }
+  for (Spacing3 & position : graph.positions)
+  {
+    position = AddScaled(position, -18, { 1, 1, 1 });
+  }
+  const std::vector<double> moved = SectionRadiiOf(graph, MovedTo(box.lower, shape), { 1, 1, 1 });
+  for (std::size_t point = 0; point < radii.size(); ++point)
+  {
+    EXPECT_NEAR(moved[point], radii[point], 1e-9) << point;
   }
 }
 

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 
 namespace voxelcore
@@ -71,7 +72,7 @@ public:
     m_Graph.nodeKinds = graph.nodeKinds;
     m_Graph.branchNodes = graph.branchNodes;
     TakePoints(graph);
-    FindDomes();
+    FindDomes(graph);
     m_Excess.assign(m_Graph.positions.size(), kUnknown);
     for (std::size_t point = 0; point < m_Graph.positions.size(); ++point)
     {
@@ -81,9 +82,9 @@ public:
   }
 
   std::vector<double>
-  Radii(const VoxelShape & shape, const Vector3 & spacing)
+  Radii(const VoxelShape & shape)
   {
-    const std::vector<BoundaryShare> shares = BoundaryShares(shape, spacing, m_Sites);
+    const std::vector<BoundaryShare> shares = BoundaryShares(shape, m_Spacing, m_Sites);
     for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
     {
       if (IsRod(branch, m_Graph.Branch(branch).size()))
@@ -213,35 +214,34 @@ private:
   /** A ball at a side that a tube's balls do not close off: within it no section of the tube is one. */
   struct Dome
   {
-    std::size_t branch = 0;
+    std::size_t branch = 0; ///< that leads into it
     Vector3     middle{};
     double      radius = 0;
   };
 
   /** Of each node the greatest dome that a branch leads into there (DomeBranches.h). */
   void
-  FindDomes()
+  FindDomes(const SkeletonGraph & graph)
   {
-    m_Domes.resize(m_Graph.nodePoints.size());
-    for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
+    m_Domes.resize(graph.nodePoints.size());
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
     {
       for (const std::size_t end : { 0U, 1U })
       {
-        const std::size_t node = m_Graph.branchNodes[branch][end];
         if (Kind(branch, end) != NodeKind::Junction || Kind(branch, 1 - end) != NodeKind::Tip)
         {
           continue;
         }
-        const ElementIndex base = m_Graph.nodePoints[node];
-        const auto         points = m_Graph.Branch(branch);
+        const std::size_t  node = graph.branchNodes[branch][end];
+        const ElementIndex base = graph.nodePoints[node];
         const ElementIndex greatest =
-          *std::ranges::max_element(points, {}, [&](ElementIndex point) { return m_Graph.radius[point]; });
-        const double radius = m_Graph.radius[greatest];
-        if (radius > std::max(m_Domes[node].radius, m_Graph.radius[base]) &&
-            Distance(m_Graph.positions[greatest], m_Graph.positions[base]) + radius - m_Graph.radius[base] >=
-              kDomeOfRadius * radius)
+          *std::ranges::max_element(graph.Branch(branch), {}, [&](ElementIndex point) { return graph.radius[point]; });
+        const Vector3 & middle = m_Graph.positions[greatest];
+        const double    radius = graph.radius[greatest];
+        if (IsDomeBeside(radius, graph.radius[base], Distance(middle, m_Graph.positions[base])) &&
+            (!m_Domes[node] || radius > m_Domes[node]->radius))
         {
-          m_Domes[node] = { branch, m_Graph.positions[greatest], radius };
+          m_Domes[node] = { branch, middle, radius };
         }
       }
     }
@@ -305,10 +305,10 @@ private:
       if (kind == NodeKind::Junction || kind == NodeKind::Surface)
       {
         const ElementIndex centre = m_Graph.nodePoints[node];
-        const Dome &       dome = m_Domes[node];
+        const auto &       dome = m_Domes[node];
         if (Distance(m_Graph.positions[point], m_Graph.positions[centre]) < m_Graph.radius[centre] ||
-            (dome.branch != branch &&
-             Distance(m_Graph.positions[point], dome.middle) < dome.radius + m_Graph.radius[point] + m_Diagonal))
+            (dome && dome->branch != branch &&
+             Distance(m_Graph.positions[point], dome->middle) < dome->radius + m_Graph.radius[point] + m_Diagonal))
         {
           return true;
         }
@@ -570,7 +570,7 @@ private:
       const auto add = [&](std::size_t end, auto from, auto to) {
         const auto        nearest = std::find_if(from, to, known);
         const std::size_t node = m_Graph.branchNodes[branch][end];
-        if (nearest != to && (m_Domes[node].radius <= 0 || m_Domes[node].branch != branch))
+        if (nearest != to && !(m_Domes[node] && m_Domes[node]->branch == branch))
         {
           sum[node] += m_Excess[*nearest];
           ++count[node];
@@ -630,14 +630,14 @@ private:
     }
   }
 
-  SkeletonGraph             m_Graph;    ///< nodes, branches and radii; positions in mm along the axes of the grid
-  std::size_t               m_Points;   ///< that are in the skeleton itself; the others follow
-  std::vector<double>       m_Excess;   ///< per point, of the section's radius over the ball's; NaN while unknown
-  std::vector<std::uint8_t> m_IsBeyond; ///< per point, whether it lies beyond a tip
-  std::vector<Dome>         m_Domes;    ///< per node; those of radius 0 are none
-  Vector3                   m_Spacing;
-  double                    m_Diagonal;
-  std::vector<WeightedSite> m_Sites; ///< per point
+  SkeletonGraph                    m_Graph;  ///< nodes, branches and radii; positions in mm along the axes of the grid
+  std::size_t                      m_Points; ///< that are in the skeleton itself; the others follow
+  std::vector<double>              m_Excess; ///< per point, of the section's radius over the ball's; NaN while unknown
+  std::vector<std::uint8_t>        m_IsBeyond; ///< per point, whether it lies beyond a tip
+  std::vector<std::optional<Dome>> m_Domes;    ///< per node
+  Vector3                          m_Spacing;
+  double                           m_Diagonal;
+  std::vector<WeightedSite>        m_Sites; ///< per point
 };
 
 } // namespace
@@ -645,7 +645,7 @@ private:
 std::vector<double>
 CrossSectionRadii(const SkeletonGraph & graph, const VoxelShape & shape, const ImageGeometry & geometry)
 {
-  return Sections(graph, geometry).Radii(shape, geometry.spacing);
+  return Sections(graph, geometry).Radii(shape);
 }
 
 } // namespace voxelcore

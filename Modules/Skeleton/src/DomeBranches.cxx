@@ -16,6 +16,14 @@ namespace voxelcore
 namespace
 {
 
+/** By how much a ball of a refined surface is greater than the one in the voxels around its middle, which is no farther
+ *  than `most` from them, mm. */
+double
+BeyondVoxels(const OpenShape & inside, const Vector3 & middle, double radius, double most)
+{
+  return radius - inside.DistanceToBoundary(middle, 0, most);
+}
+
 /** Of a line of points: its greatest ball, and where the ways there meet. */
 struct Dome
 {
@@ -141,12 +149,11 @@ private:
     {
       return std::nullopt;
     }
-    // By so much balls of a refined surface differ from those of voxels.
     const double most = radius + wayIn;
-    const double differs =
-      Radius(line, dome.before) - m_Inside.DistanceToBoundary(before, 0, Radius(line, dome.before) + most);
-    dome.footRadius = std::max(0.0, m_Inside.DistanceToBoundary(dome.foot, 0, most) + differs);
-    if (radius <= dome.footRadius || wayIn + radius - dome.footRadius < least)
+    const double ball = Radius(line, dome.before);
+    const double beyond = BeyondVoxels(m_Inside, before, ball, ball + most);
+    dome.footRadius = std::max(0.0, m_Inside.DistanceToBoundary(dome.foot, 0, most) + beyond);
+    if (!IsDomeBeside(radius, dome.footRadius, wayIn) || wayIn + radius - dome.footRadius < m_StandOut)
     {
       return std::nullopt;
     }
@@ -185,8 +192,7 @@ public:
     });
     const DomeArm & dome = arms[0];
     const double    radius = BallAt(dome, dome.greatest);
-    const double    ball = BallAt(dome, 0);
-    if (!dome.endsInTip || radius <= ball || dome.way[dome.greatest] + radius - ball < kDomeOfRadius * radius)
+    if (!dome.endsInTip || !IsDomeBeside(radius, BallAt(dome, 0), dome.way[dome.greatest]))
     {
       return false;
     }
@@ -236,13 +242,12 @@ public:
     {
       return false;
     }
-    // By so much balls of a refined surface differ from those of voxels.
     const double most = radius + dome.way.back() + chord;
-    const double differs = BallAt(arms[1], before) - m_Inside.DistanceToBoundary(from, 0, most);
+    const double beyond = BeyondVoxels(m_Inside, from, BallAt(arms[1], before), most);
     for (const auto & [point, place] : moved)
     {
       m_Graph.positions[point] = place;
-      m_Graph.radius[point] = std::max(0.0, m_Inside.DistanceToBoundary(place, 0, most) + differs);
+      m_Graph.radius[point] = std::max(0.0, m_Inside.DistanceToBoundary(place, 0, most) + beyond);
       if (!m_Graph.medial.empty())
       {
         m_Graph.medial[point] = place;

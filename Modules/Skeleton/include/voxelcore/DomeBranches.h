@@ -14,6 +14,14 @@ namespace voxelcore
  *  their angle, stand out of theirs by 0.41 of it at most. */
 constexpr double kDomeOfRadius = 0.5;
 
+/** Whether a ball is a dome beside another one whose middle is `way` from its own: greater, and standing out by
+ *  kDomeOfRadius. All in mm. */
+inline bool
+IsDomeBeside(double radius, double other, double way)
+{
+  return radius > other && way + radius - other >= kDomeOfRadius * radius;
+}
+
 /** Fire in a tube may come to a dome at its side from both ends before it burns the neck: the line runs into the dome
  *  and back. As far as each of the two ways lies in the balls of the other they are one: they meet in the middle
  *  between their last such places, and one branch leads on from there to the dome's greatest ball, when that stands
