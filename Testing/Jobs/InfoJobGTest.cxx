@@ -52,6 +52,19 @@ TEST_F(InfoJob, TellsOfEachLabelWhatIsThere)
   EXPECT_NE(text.find(std::to_string(label.voxels)), std::string::npos) << text;
 }
 
+TEST_F(InfoJob, ASkeletonOfABodyThatTheBorderCutsIsForetoldToTakeLonger)
+{
+  RunPhantomJob(
+    PhantomOptionsFrom({ { "kind", "cells" }, { "size", "40" }, { "cells", "30" }, { "output", At("a.nrrd") } }));
+  InfoOptions options = InfoOptionsFrom({ { "scan", At("a.nrrd") } });
+  EXPECT_EQ(options.skeletonBorder, BorderEnds::Open) << "as skeleton has it";
+  const ScanInfo open = RunInfoJob(options);
+  options.skeletonBorder = BorderEnds::Closed;
+  const ScanInfo closed = RunInfoJob(options);
+  EXPECT_GT(open.skeleton->seconds, 1.1 * closed.skeleton->seconds);
+  EXPECT_EQ(open.core->seconds, closed.core->seconds);
+}
+
 TEST_F(InfoJob, PiecesThatTouchInCornersAreCountedBothWays)
 {
   RunPhantomJob(PhantomOptionsFrom({ { "kind", "noise" }, { "size", "9" }, { "output", At("a.nrrd") } }));

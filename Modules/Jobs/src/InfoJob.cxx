@@ -148,11 +148,11 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   info.notes = std::move(volume.notes);
   info.notes.insert(info.notes.end(), edited.notes.begin(), edited.notes.end());
   info.warnings = std::move(volume.warnings);
-  bool hasCores = false;
+  std::optional<VoxelBox> border; // none where no core can be made
   try
   {
     const SpacingWeights weights = ScanWeights(info.geometry, options.scan);
-    hasCores = true;
+    border = BorderOf(volume);
     for (std::string & warning : DiagnoseLabels(edited.labels, weights.weight))
     {
       info.warnings.push_back(std::move(warning));
@@ -179,13 +179,12 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   info.page = PredictJob(boundaries, page, info.threads);
   CoreOptions skeletons;
   skeletons.lambdas = options.skeletonLambdas;
-  skeletons.skeleton.emplace();
+  skeletons.skeleton.emplace().border = options.skeletonBorder;
   skeletons.skeletonOutput = "skeleton.vtp";
-  const std::optional<VoxelBox> scan = hasCores ? BorderOf(volume) : std::nullopt;
-  info.skeleton =
-    PredictJob(scan ? CountBoundariesUpToBorder(edited.labels, info.geometry, *scan, *skeletons.skeleton) : boundaries,
-               skeletons,
-               info.threads);
+  info.skeleton = PredictJob(
+    border ? CountBoundariesUpToBorder(edited.labels, info.geometry, *border, *skeletons.skeleton) : boundaries,
+    skeletons,
+    info.threads);
   const double voxelMm3 = info.geometry.spacing[0] * info.geometry.spacing[1] * info.geometry.spacing[2];
   for (const auto & [label, component, edits, hollow, diagnosis] : edited.labels)
   {

@@ -7,6 +7,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/OutputNames.h"
 #include "voxelcore/ReadInput.h"
+#include "voxelcore/SkeletonTexts.h"
 
 #include <vector>
 
@@ -219,6 +220,7 @@ InfoOptionsFrom(const ParameterValues & values)
   ReadPruning(ParameterReader({}, CommandId::Core), options.coreLambdas, options.coreTolerances);
   options.coreRefined = RefinesUsually(options.coreTolerances);
   options.skeletonLambdas = ParseLambdas(ValueOf({}, CommandId::Skeleton, "lambda"));
+  options.skeletonBorder = ParseBorder(ValueOf({}, CommandId::Skeleton, "border"));
   return options;
 }
 

@@ -29,6 +29,7 @@ struct InfoOptions
   std::vector<Tolerance> coreTolerances;
   bool                   coreRefined = false; ///< from labels
   std::vector<Lambda>    skeletonLambdas;
+  BorderEnds             skeletonBorder = BorderEnds::Closed;
 };
 
 struct LabelInfo
