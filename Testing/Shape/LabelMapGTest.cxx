@@ -19,6 +19,27 @@ TEST(LabelMap, ALabelIsCalledByValueAndName)
   EXPECT_EQ(LabelText(INT64_MAX, ""), "label 9223372036854775807 ()");
 }
 
+TEST(LabelMap, OfSeveralLabelsFiveAreCalledByName)
+{
+  LabelTexts texts;
+  texts.Add("label 1 (a)", "");
+  EXPECT_TRUE(texts.IsEmpty());
+  EXPECT_EQ(texts.Text(), "");
+  texts.Add("label 2 (b)", "two loops");
+  EXPECT_EQ(texts.Text(), "label 2 (b): two loops");
+  for (const char * label : { "3", "4", "5", "6" })
+  {
+    texts.Add(label, "one");
+  }
+  const std::string five = "label 2 (b): two loops; 3: one; 4: one; 5: one; 6: one";
+  EXPECT_EQ(texts.Text(), five);
+  texts.Add("7", "one");
+  EXPECT_EQ(texts.Text(), five + "; and those of 1 more label");
+  texts.Add("8", "one");
+  EXPECT_EQ(texts.Text(), five + "; and those of 2 more labels");
+  EXPECT_FALSE(texts.IsEmpty());
+}
+
 TEST(LabelMap, LabelsStandByValueEachInItsTightBoxAndShareTheVoxels)
 {
   constexpr std::uint64_t firstSeed = 20261122;

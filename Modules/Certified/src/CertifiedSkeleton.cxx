@@ -109,21 +109,17 @@ MeasureBallsAnew(SkeletonGraph &              graph,
                  const ImageGeometry &        geometry,
                  const SurfaceDistance &      toSurface)
 {
-  std::vector<std::uint8_t> isTip(graph.positions.size(), 0);
-  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
-  {
-    isTip[graph.nodePoints[node]] = graph.nodeKinds[node] == NodeKind::Tip ? 1 : 0;
-  }
-  const auto distanceAt = [&](const Vector3 & place) { return toSurface.From(PhysicalToLattice(geometry, place)); };
+  const std::vector<std::uint8_t> isTip = TipFlags(graph);
   RunEach(graph.positions.size(), [&](std::size_t point) {
-    double & radius = graph.radius[point];
+    double &      radius = graph.radius[point];
+    const Vector3 place = PhysicalToLattice(geometry, graph.positions[point]);
     if (isTip[point] != 0)
     {
-      radius = distanceAt(graph.positions[point]);
+      radius = toSurface.From(place);
     }
     else if (graph.positions[point] != before[point])
     {
-      radius = std::max(0.0, radius + distanceAt(graph.positions[point]) - distanceAt(before[point]));
+      radius = toSurface.RadiusAt(place, radius, PhysicalToLattice(geometry, before[point]));
     }
   });
 }

@@ -173,8 +173,7 @@ MoveCurves(const RefinedCore & refined, const VoxelShape & voxels, const Certifi
     const Vector3   given = PhysicalToLattice(shape.geometry, position);
     if (Length(Minus(given, measured)) > kSamePlace)
     {
-      const double change = burned.toSurface->From(given) - burned.toSurface->From(measured);
-      curves.radius[v] = std::max(0.0, curves.radius[v] + change);
+      curves.radius[v] = burned.toSurface->RadiusAt(given, curves.radius[v], measured);
     }
   }
 }

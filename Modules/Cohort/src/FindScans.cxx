@@ -323,7 +323,10 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
     if (IsManifest(input) && !fs::is_directory(input))
     {
       auto rows = ReadManifest(input);
-      cases.empty() ? cases.swap(rows) : void(); // tens of thousands are not there twice
+      if (cases.empty()) // tens of thousands are not there twice
+      {
+        cases.swap(rows);
+      }
       cases.insert(cases.end(), std::move_iterator(rows.begin()), std::move_iterator(rows.end()));
     }
     else

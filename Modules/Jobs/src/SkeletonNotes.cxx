@@ -81,10 +81,8 @@ TellClosedBorder(const CoreReport & report, std::vector<std::string> & notes)
 void
 TellShortLoops(const CoreReport & report, std::vector<std::string> & notes)
 {
-  constexpr double      little = 0.05; // airways of five teams have 0.4 to 1.3 %, an arch over a true ring more
-  constexpr std::size_t named = 5;
-  std::size_t           count = 0;
-  std::string           text;
+  constexpr double little = 0.05; // airways of five teams have 0.4 to 1.3 %, an arch over a true ring more
+  LabelTexts       told;
   for (const LabelRecord & label : report.labels)
   {
     const bool isTold = label.diagnosis && label.diagnosis->MayBeTree();
@@ -95,19 +93,15 @@ TellShortLoops(const CoreReport & report, std::vector<std::string> & notes)
     const SkeletonNumbers & numbers = label.skeleton->numbers;
     if (numbers.cycles > 0 && numbers.isolatedLoops == 0 && numbers.closingLength <= little * numbers.totalLength)
     {
-      if (++count <= named)
-      {
-        text += (count > 1 ? "; " : "") + LabelText(label.label, label.name) + ": " +
-                Counted(static_cast<std::uint64_t>(numbers.cycles), "loop", "loops") + ", closed by " +
-                ShortText(100 * numbers.closingLength / numbers.totalLength, 2) + " % of the length";
-      }
+      told.Add(LabelText(label.label, label.name),
+               Counted(static_cast<std::uint64_t>(numbers.cycles), "loop", "loops") + ", closed by " +
+                 ShortText(100 * numbers.closingLength / numbers.totalLength, 2) + " % of the length");
     }
   }
-  if (count > 0)
+  if (!told.IsEmpty())
   {
-    notes.push_back(
-      text + (count > named ? "; and those of " + Counted(count - named, "more label", "more labels") : std::string()) +
-      "; to cut loops: --tree, or --simplify-topology 3vox --loops 0 where there are several pieces");
+    notes.push_back(told.Text() +
+                    "; to cut loops: --tree, or --simplify-topology 3vox --loops 0 where there are several pieces");
   }
 }
 

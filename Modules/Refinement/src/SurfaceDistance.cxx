@@ -96,4 +96,10 @@ SurfaceDistance::From(const Vector3 & place) const
   return distance;
 }
 
+double
+SurfaceDistance::RadiusAt(const Vector3 & place, double radius, const Vector3 & before) const
+{
+  return std::max(0.0, radius + (From(place) - From(before)));
+}
+
 } // namespace voxelcore

@@ -296,44 +296,6 @@ Append(LabelShape label, const std::optional<EditRecord> & record, bool split, s
   }
 }
 
-/** What is said of several labels in one line. */
-class OfLabels
-{
-public:
-  /** Nothing where the text is empty. */
-  void
-  Add(const LabelShape & label, const std::string & text)
-  {
-    constexpr std::size_t named = 5;
-    if (text.empty())
-    {
-      return;
-    }
-    if (++m_Count <= named)
-    {
-      m_Text += (m_Count > 1 ? "; " : "") + LabelText(label.value, label.name) + ": " + text;
-    }
-    m_More += m_Count > named ? 1 : 0;
-  }
-
-  bool
-  IsEmpty() const
-  {
-    return m_Count == 0;
-  }
-
-  std::string
-  Text() const
-  {
-    return m_Text + (m_More > 0 ? "; and those of " + Counted(m_More, "more label", "more labels") : std::string());
-  }
-
-private:
-  std::string   m_Text;
-  std::size_t   m_Count = 0;
-  std::uint64_t m_More = 0;
-};
-
 /** Empty where none do. */
 std::string
 TouchingText(const MaskDiagnosis & found)
@@ -346,7 +308,7 @@ TouchingText(const MaskDiagnosis & found)
 }
 
 void
-TellTouching(const OfLabels & touching, std::vector<std::string> & told)
+TellTouching(const LabelTexts & touching, std::vector<std::string> & told)
 {
   if (!touching.IsEmpty())
   {
@@ -358,7 +320,7 @@ void
 TellNoise(const std::vector<EditedLabel> & labels, std::uint64_t leastPiece, std::vector<std::string> & warnings)
 {
   constexpr std::uint64_t mostRemoved = 50; // one voxel in so many: what takes more says so
-  OfLabels                told;
+  LabelTexts              told;
   MaskDiagnosis           all;
   std::uint64_t           removed = 0;
   bool                    isMuch = false;
@@ -373,7 +335,7 @@ TellNoise(const std::vector<EditedLabel> & labels, std::uint64_t leastPiece, std
       {
         first = "--labels " + std::to_string(one.label.value) + " " + found.NoiseOptions();
       }
-      told.Add(one.label, found.NoiseText());
+      told.Add(LabelText(one.label.value, one.label.name), found.NoiseText());
       all.loops += found.torn + found.loops + found.cavities;
       all.islands += found.islands;
       all.largestIsland = std::max(all.largestIsland, found.largestIsland);
@@ -482,10 +444,10 @@ ConnectLabels(std::vector<LabelShape> & labels,
   std::vector<std::string> told;
   if (connectivity == Connectivity::Six)
   {
-    OfLabels touching;
+    LabelTexts touching;
     for (const LabelShape & label : labels)
     {
-      touching.Add(label, TouchingText(DiagnoseTouching(label.shape)));
+      touching.Add(LabelText(label.value, label.name), TouchingText(DiagnoseTouching(label.shape)));
     }
     TellTouching(touching, told);
     return told;
@@ -552,10 +514,11 @@ DiagnoseLabels(std::vector<EditedLabel> &          labels,
       warnings.push_back(LabelText(one.label.value, one.label.name) + " " + HollowText(*one.hollow));
     }
   }
-  OfLabels touching;
+  LabelTexts touching;
   for (const EditedLabel & one : labels)
   {
-    touching.Add(one.label, one.diagnosis ? TouchingText(*one.diagnosis) : std::string());
+    touching.Add(LabelText(one.label.value, one.label.name),
+                 one.diagnosis ? TouchingText(*one.diagnosis) : std::string());
   }
   TellTouching(touching, warnings);
   TellNoise(labels, least.empty() ? 0 : std::ranges::min(least), warnings);

@@ -20,6 +20,13 @@ namespace voxelcore
 namespace
 {
 
+/** By how much the ball at a branch's tip stands out of the one at its base, mm along the branch. */
+double
+StandsOut(const SkeletonGraph & graph, double length, ElementIndex tip, ElementIndex base)
+{
+  return length + graph.radius[tip] - graph.radius[base];
+}
+
 /** Takes off branches that end in a tip one by one, the one with the smallest key first, and joins what then meets in
  *  twos. The order does not depend on where it stops: a higher limit takes the same branches and more. */
 template <typename Key>
@@ -225,8 +232,8 @@ std::size_t
 PruneBulges(SkeletonGraph & graph, const std::vector<double> & roughness, double ratio)
 {
   const auto key = [&](double length, ElementIndex tip, ElementIndex base) {
-    const double standsOut = length + graph.radius[tip] - graph.radius[base];
-    return roughness[base] > 0 ? standsOut / roughness[base] : std::numeric_limits<double>::infinity();
+    return roughness[base] > 0 ? StandsOut(graph, length, tip, base) / roughness[base]
+                               : std::numeric_limits<double>::infinity();
   };
   return TipPruning(graph, key).Run(ratio);
 }
@@ -240,7 +247,7 @@ PruneCutEnds(SkeletonGraph & graph, const std::vector<LoopCut> & cuts, double st
     places.insert(cut.position);
   }
   const auto key = [&](double length, ElementIndex tip, ElementIndex base) {
-    return places.count(graph.positions[tip]) > 0 ? length + graph.radius[tip] - graph.radius[base]
+    return places.count(graph.positions[tip]) > 0 ? StandsOut(graph, length, tip, base)
                                                   : std::numeric_limits<double>::infinity();
   };
   return TipPruning(graph, key).Run(standOut);

@@ -147,11 +147,7 @@ OpenShape::DistanceWithin(const Vector3 & place, double least, double most) cons
 void
 MeasureBallsAnew(SkeletonGraph & graph, const std::vector<Vector3> & before, double ends, const OpenShape & shape)
 {
-  std::vector<std::uint8_t> isEnd(graph.positions.size(), 0);
-  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
-  {
-    isEnd[graph.nodePoints[node]] = graph.nodeKinds[node] == NodeKind::Tip ? 1 : 0;
-  }
+  const std::vector<std::uint8_t> isEnd = TipFlags(graph);
   RunEach(graph.positions.size(), [&](std::size_t point) {
     const double moved = Distance(graph.positions[point], before[point]) + (isEnd[point] != 0 ? ends : 0);
     if (moved > 0)

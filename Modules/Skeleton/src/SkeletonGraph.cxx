@@ -113,6 +113,17 @@ AddBranches(SkeletonGraph &                        graph,
 
 } // namespace
 
+std::vector<std::uint8_t>
+TipFlags(const SkeletonGraph & graph)
+{
+  std::vector<std::uint8_t> isTip(graph.positions.size(), 0);
+  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
+  {
+    isTip[graph.nodePoints[node]] = graph.nodeKinds[node] == NodeKind::Tip ? 1 : 0;
+  }
+  return isTip;
+}
+
 double
 SkeletonGraph::BranchLength(std::size_t branch) const
 {

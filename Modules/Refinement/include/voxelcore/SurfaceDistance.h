@@ -28,6 +28,11 @@ public:
   double
   From(const Vector3 & place) const;
 
+  /** The radius, mm, at a place in lattice coordinates, of a ball that had `radius` where its middle was before: it
+   *  changes as the distance from the surface does. */
+  double
+  RadiusAt(const Vector3 & place, double radius, const Vector3 & before) const;
+
 private:
   std::shared_ptr<const SurfaceEstimate> m_Surface;
   Vector3                                m_Spacing;

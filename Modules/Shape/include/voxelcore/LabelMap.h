@@ -45,4 +45,27 @@ struct LabelMap
 std::string
 LabelText(std::int64_t value, const std::string & name);
 
+/** What is said of several labels in one line; beyond five, how many more there are. */
+class LabelTexts
+{
+public:
+  /** `label` as LabelText() has it; nothing where `text` is empty. */
+  void
+  Add(const std::string & label, const std::string & text);
+
+  bool
+  IsEmpty() const
+  {
+    return m_Count == 0;
+  }
+
+  /** "label 4 (Precentral_L): ...; label 5 (...): ...; and those of 2 more labels" */
+  std::string
+  Text() const;
+
+private:
+  std::string   m_Text;
+  std::uint64_t m_Count = 0;
+};
+
 } // namespace voxelcore

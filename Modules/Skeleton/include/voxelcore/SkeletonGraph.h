@@ -70,6 +70,10 @@ struct SkeletonGraph
   BranchLabel(std::size_t branch) const;
 };
 
+/** Per point 1 at tips of branches, else 0. */
+std::vector<std::uint8_t>
+TipFlags(const SkeletonGraph & graph);
+
 /** What is measured as a radius: `sectionRadius`, or that of the balls where there is none. */
 inline const std::vector<double> &
 SectionRadii(const SkeletonGraph & graph)
