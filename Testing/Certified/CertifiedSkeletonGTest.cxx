@@ -538,6 +538,7 @@ TEST(CertifiedSkeleton, ATubeCutByTheBorderIsAsLongAsItIs)
   ExpectTubeUpToBorder(5, 0, 24, { 1, 1, 1 });
   ExpectTubeUpToBorder(5, 30, 24, { 1, 1, 1 });
   ExpectTubeUpToBorder(5, 0, 25, { 1, 1, 2.5 });
+  ExpectTubeUpToBorder(5, 60, 60, { 1, 1, 1 }); // beyond the border it ends in a wedge, with a branch into each corner
 }
 
 TEST(HeavyCertifiedSkeleton, TubesCutByTheBorderAreAsLongAsTheyAre)

@@ -234,11 +234,14 @@ private:
         }
         const std::size_t  node = graph.branchNodes[branch][end];
         const ElementIndex base = graph.nodePoints[node];
-        const ElementIndex greatest =
-          *std::ranges::max_element(graph.Branch(branch), {}, [&](ElementIndex point) { return graph.radius[point]; });
-        const Vector3 & middle = m_Graph.positions[greatest];
-        const double    radius = graph.radius[greatest];
+        const auto         points = graph.Branch(branch);
+        const auto at = std::ranges::max_element(points, {}, [&](ElementIndex point) { return graph.radius[point]; });
+        const ElementIndex greatest = *at;
+        const ElementIndex tip = graph.nodePoints[graph.branchNodes[branch][1 - end]];
+        const Vector3 &    middle = m_Graph.positions[greatest];
+        const double       radius = graph.radius[greatest];
         if (IsDomeBeside(radius, graph.radius[base], Distance(middle, m_Graph.positions[base])) &&
+            Distance(middle, m_Graph.positions[tip]) <= kDomeGoesOn * radius &&
             (!m_Domes[node] || radius > m_Domes[node]->radius))
         {
           m_Domes[node] = { branch, middle, radius };

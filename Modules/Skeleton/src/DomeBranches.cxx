@@ -192,7 +192,8 @@ public:
     });
     const DomeArm & dome = arms[0];
     const double    radius = BallAt(dome, dome.greatest);
-    if (!dome.endsInTip || !IsDomeBeside(radius, BallAt(dome, 0), dome.way[dome.greatest]))
+    if (!dome.endsInTip || dome.way.back() - dome.way[dome.greatest] > kDomeGoesOn * radius ||
+        !IsDomeBeside(radius, BallAt(dome, 0), dome.way[dome.greatest]))
     {
       return false;
     }

@@ -14,6 +14,10 @@ namespace voxelcore
  *  their angle, stand out of theirs by 0.41 of it at most. */
 constexpr double kDomeOfRadius = 0.5;
 
+/** Beyond its greatest ball a branch into a dome goes on for so many radii of it at most, to the other side of what it
+ *  leads into. A trunk that ends in two twigs goes on for longer. */
+constexpr double kDomeGoesOn = 2;
+
 /** Whether a ball is a dome beside another one whose middle is `way` from its own: greater, and standing out by
  *  kDomeOfRadius. All in mm. */
 inline bool
@@ -34,7 +38,8 @@ BranchIntoDomes(SkeletonGraph & graph, const OpenShape & inside, double standOut
  *  far as the dome has opened the tube's wall: so from where the balls of the tube are apart from the dome's greatest
  *  ball on one side to where they are on the other, the line is the cubic that goes on in its directions there. The
  *  junction lies where that is nearest to the dome's middle, and the dome's branch leads straight there. A dome is a
- *  branch with a tip whose greatest ball stands out of that at its junction by kDomeOfRadius. Where a line would leave
+ *  branch with a tip whose greatest ball stands out of that at its junction by kDomeOfRadius, and which ends with it
+ *  (kDomeGoesOn). Where a line would leave
  *  the shape, or a tube ends or forks before it is apart from its dome, it stays. Moves points, in `medial`, too, and
  *  measures their balls anew: the branches are to be fitted again. Gives the number of domes. */
 std::size_t
