@@ -8,7 +8,8 @@ set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 may_use() {
-  local mathematics="Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Thickness Verification Certified"
+  local mathematics="Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Vessels Thickness Verification"
+  mathematics="$mathematics Certified"
   case "$1" in
     Lattice) echo "" ;;
     Shape | Complex) echo "Lattice" ;;
@@ -17,6 +18,7 @@ may_use() {
     Thickness) echo "Lattice Shape Complex Delaunay VoxelCore Refinement" ;;
     VoxelCore) echo "Lattice Shape Complex Delaunay" ;;
     Refinement | Skeleton) echo "Lattice Shape Complex Delaunay VoxelCore" ;;
+    Vessels) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton" ;;
     Verification) echo "Lattice Shape Complex" ;;
     Certified) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Thickness Verification" ;;
     Formats) echo "Lattice Shape" ;;
@@ -24,11 +26,11 @@ may_use() {
     Imaging) echo "Lattice Shape Formats ItkReader" ;;
     ITK) echo "$mathematics Formats Imaging" ;;
     Models) echo "$mathematics Voxelization" ;;
-    Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Models Certified" ;;
+    Display) echo "Lattice Shape Complex Delaunay VoxelCore Skeleton Vessels Models Certified" ;;
     Report) echo "$mathematics Formats Imaging Models" ;;
     Jobs) echo "$mathematics Blocks Voxelization Phantom Formats ItkReader Imaging Models Display Report" ;;
-    Options) echo "Lattice Shape VoxelCore Skeleton Certified Formats Imaging Models Report Jobs" ;;
-    Cohort) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Certified Formats Imaging" \
+    Options) echo "Lattice Shape VoxelCore Skeleton Vessels Certified Formats Imaging Models Report Jobs" ;;
+    Cohort) echo "Lattice Shape Complex Delaunay VoxelCore Refinement Skeleton Vessels Certified Formats Imaging" \
                  "Models Report Jobs Options" ;;
     *) echo "layers.sh: no rule for module $1; add one" >&2; return 1 ;;
   esac

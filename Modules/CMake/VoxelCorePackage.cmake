@@ -7,8 +7,8 @@ set(VOXELCORE_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/VoxelCore")
 # A component of find_package(VoxelCore COMPONENTS ...) is a set of libraries and the components it builds on; what is
 # not built is left out.
 set(VOXELCORE_COMPONENTS Core Imaging Models Display Jobs ITK VTK)
-set(component_Core Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Thickness Voxelization Phantom
-  Verification Certified Core)
+set(component_Core Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Vessels Thickness Voxelization
+  Phantom Verification Certified Core)
 set(component_Imaging Formats ItkReader Imaging)
 foreach(component Models Display ITK VTK)
   set(component_${component} ${component})

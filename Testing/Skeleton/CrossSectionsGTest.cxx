@@ -1,4 +1,5 @@
 #include "RootScore.h"
+#include "VoxelCoreTesting/BodyVoxels.h"
 
 #include "voxelcore/BodyFrame.h"
 #include "voxelcore/BranchTable.h"
@@ -19,37 +20,6 @@ namespace voxelcore::testing
 
 namespace
 {
-
-/** Voxels whose middle lies in a body of so many mm to each side of the origin, which is anywhere in a voxel. */
-template <typename IsIn>
-VoxelShape
-Around(const Spacing3 & half, const Spacing3 & spacing, const Spacing3 & shift, const IsIn & isIn)
-{
-  Size3    size{};
-  Spacing3 origin{};
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    size[k] = static_cast<std::int32_t>(std::ceil(2 * half[k] / spacing[k])) + 3;
-    origin[k] = (0.5 * size[k] + shift[k]) * spacing[k];
-  }
-  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, size });
-  for (std::int32_t z = 0; z < size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < size[1]; ++y)
-    {
-      for (std::int32_t x = 0; x < size[0]; ++x)
-      {
-        if (isIn(Spacing3{ (x + 0.5) * spacing[0] - origin[0],
-                           (y + 0.5) * spacing[1] - origin[1],
-                           (z + 0.5) * spacing[2] - origin[2] }))
-        {
-          shape.Insert(x, y, z);
-        }
-      }
-    }
-  }
-  return CropToVoxels(std::move(shape));
-}
 
 /** The radius in the table of the longest branch. */
 double
@@ -74,7 +44,7 @@ TubeRadius(double radius, Spacing3 way, const Spacing3 & spacing, const Spacing3
   {
     half[k] = 0.5 * length * std::abs(way[k]) + radius;
   }
-  const VoxelShape shape = Around(half, spacing, shift, [&](const Spacing3 & p) {
+  const VoxelShape shape = VoxelsAround(half, spacing, shift, [&](const Spacing3 & p) {
     const double along = std::clamp(Dot(p, way), -0.5 * length, 0.5 * length);
     return Length(AddScaled(p, -along, way)) <= radius;
   });
@@ -119,7 +89,7 @@ TEST(CrossSections, TubesOfAnyRadiusAndDirectionHaveTheirRadiusOnAverage)
 
 TEST(CrossSections, OfAFlatTubeItIsTheRadiusOfACircleOfThatArea)
 {
-  const VoxelShape    shape = Around({ 60, 12, 4 }, { 1, 1, 1 }, { .2, .3, .4 }, [](const Spacing3 & p) {
+  const VoxelShape    shape = VoxelsAround({ 60, 12, 4 }, { 1, 1, 1 }, { .2, .3, .4 }, [](const Spacing3 & p) {
     return std::abs(p[0]) <= 60 && p[1] * p[1] / 144 + p[2] * p[2] / 16 <= 1;
   });
   const SkeletonGraph graph = GraphOf(shape, { 1, 1, 1 });
@@ -137,7 +107,7 @@ TEST(CrossSections, OfAFlatTubeItIsTheRadiusOfACircleOfThatArea)
 TEST(CrossSections, WhatHasNoSectionIsARodOfItsVolume)
 {
   const VoxelShape ball =
-    Around({ 9, 9, 9 }, { 1, 1, 1 }, { 0, 0, 0 }, [](const Spacing3 & p) { return Length(p) <= 9; });
+    VoxelsAround({ 9, 9, 9 }, { 1, 1, 1 }, { 0, 0, 0 }, [](const Spacing3 & p) { return Length(p) <= 9; });
   const SkeletonGraph graph = GraphOf(ball, { 1, 1, 1 });
   ASSERT_EQ(graph.positions.size(), 1U);
   EXPECT_NEAR(graph.sectionRadius[0],
@@ -165,7 +135,7 @@ TEST(CrossSections, StenosesAndBulgesKeepTheirDepth)
       half[k] = 0.5 * length * std::abs(way[k]) + 2 * radius;
     }
     const Spacing3      shift{ within(-0.5, 0.5), within(-0.5, 0.5), within(-0.5, 0.5) };
-    const VoxelShape    shape = Around(half, { 1, 1, 1 }, shift, [&](const Spacing3 & p) {
+    const VoxelShape    shape = VoxelsAround(half, { 1, 1, 1 }, shift, [&](const Spacing3 & p) {
       const double along = Dot(p, way);
       const double here = radius * (1 - depth * std::exp(-0.5 * along * along / (width * width)));
       return std::abs(along) <= 0.5 * length && Length(AddScaled(p, -along, way)) <= here;

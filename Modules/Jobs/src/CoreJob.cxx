@@ -6,6 +6,7 @@
 #include "FacelessLabels.h"
 #include "FolderLabels.h"
 #include "JobTools.h"
+#include "SkeletonBodies.h"
 #include "voxelcore/LabelLoop.h"
 #include "ResultFiles.h"
 #include "voxelcore/SkeletonFiles.h"
@@ -193,6 +194,11 @@ StageCoreJob(const CoreOptions & options,
     skeletons.emplace(options.skeletonOutput, options.scan, options.skeletonTargets, transaction);
   }
 
+  std::optional<SkeletonBodies> bodies;
+  if (options.skeleton && options.skeletonTargets.NeedsBodies())
+  {
+    bodies.emplace(options.skeletonOutput, options.skeletonTargets, transaction);
+  }
   DisplayFiles shown(options.display, options.scan, transaction);
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
@@ -229,6 +235,10 @@ StageCoreJob(const CoreOptions & options,
   const SurfaceSource           estimates = MakeSurfaceSource(options.refine, options.scan, options.reading, volume);
   const std::optional<VoxelBox> border = BorderOf(volume);
   volume.mesh.reset();
+  if (bodies)
+  {
+    bodies->Keep(edited.labels, options, volume.geometry, border, estimates);
+  }
   if (network)
   {
     network->Fit(edited.labels.front(), volume.geometry, border, *options.skeleton);
@@ -306,6 +316,10 @@ StageCoreJob(const CoreOptions & options,
       {
         network->Take(outcome, *options.skeleton, report, result.notes);
       }
+      if (bodies)
+      {
+        bodies->Add(*outcome.skeleton);
+      }
       // A core that is only a step on the way to a skeleton is not shown.
       const ModelPart nothing;
       shown.AddLabel(outcome.record,
@@ -353,6 +367,10 @@ StageCoreJob(const CoreOptions & options,
       folder->Finished().RemoveTables();
     }
     skeletons->Finish(report, result.notes);
+    if (bodies)
+    {
+      bodies->Finish();
+    }
     if (folder)
     {
       folder->Finished().NoteTables(transaction);

@@ -55,6 +55,11 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     throw UsageError("--network: needs a scan, but " + options.input.string() +
                      " is a medial surface; give the scan to 'voxelcore skeleton'");
   }
+  if (options.targets.NeedsBodies())
+  {
+    throw UsageError("--sections: needs a scan, but " + options.input.string() +
+                     " is a medial surface, which does not hold the body; give the scan to 'voxelcore skeleton'");
+  }
   const JobContext  context = ForwardOnly(given);
   Stopwatch         total;
   Stopwatch         watch;

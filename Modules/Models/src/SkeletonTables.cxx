@@ -105,13 +105,6 @@ constexpr auto kContactColumns = std::to_array<Column>({
   { "node_z", "mm", "" },
 });
 
-std::string
-NameIn(const SkeletonNetwork & network, std::int64_t value)
-{
-  const auto own = std::ranges::find(network.labels, value, &NetworkLabel::value);
-  return own == network.labels.end() ? std::string() : own->name;
-}
-
 void
 AddSummary(TextFile & file, const SkeletonPart & part)
 {
@@ -164,7 +157,7 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
       const BranchRecord & r = part.table.branches[branch];
       const auto &         nodes = part.graph.branchNodes[branch];
       const std::int64_t   label = part.network ? part.graph.BranchLabel(branch) : part.label;
-      const std::string    name = part.network ? NameIn(*part.network, label) : part.name;
+      const std::string    name = part.network ? part.network->NameOf(label) : part.name;
       file << label << "," << CsvField(name) << "," << part.component << "," << branch << "," << r.component << ","
            << nodes[0] << "," << nodes[1] << "," << static_cast<int>(r.type) << "," << r.length << "," << r.chord << ","
            << r.tortuosity << "," << r.freeLength << "," << r.meanRadius << "," << r.minRadius << "," << r.maxRadius
@@ -233,7 +226,7 @@ WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model
     const auto addLabels = [&](const std::array<std::int64_t, 2> & labels) {
       for (const std::int64_t label : labels)
       {
-        file << "," << label << "," << CsvField(NameIn(*part.network, label));
+        file << "," << label << "," << CsvField(part.network->NameOf(label));
       }
     };
     const auto addNode = [&](const std::array<double, 3> & place) {

@@ -162,6 +162,15 @@ TargetsFrom(const ParameterValues & values, CommandId command)
   {
     targets.also = ParseAlso(ValueOf(values, command, "also"));
   }
+  if (values.contains("sections"))
+  {
+    const std::string apart = ValueOf(values, command, "sections");
+    targets.sections = apart == "all" ? Lambda() : LengthFrom(values, command, "sections");
+    if (apart != "all" && !(targets.sections->value > 0))
+    {
+      throw UsageError("--sections " + apart + ": expected all, or a distance above 0 such as 1mm or 2vox");
+    }
+  }
   return targets;
 }
 

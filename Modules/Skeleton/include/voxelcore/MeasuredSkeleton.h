@@ -3,6 +3,7 @@
 
 #include "voxelcore/BranchTable.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -45,6 +46,14 @@ struct SkeletonNetwork
   std::vector<NetworkLabel>   labels; ///< by value
   std::vector<NetworkContact> contacts;
   std::vector<NetworkGap>     gaps;
+
+  /** Empty for a value that no label has. */
+  std::string
+  NameOf(std::int64_t value) const
+  {
+    const auto own = std::ranges::find(labels, value, &NetworkLabel::value);
+    return own == labels.end() ? std::string() : own->name;
+  }
 };
 
 /** The skeleton of one label, or of one component of it; positions in LPS mm. */
