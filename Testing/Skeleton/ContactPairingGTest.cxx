@@ -132,33 +132,6 @@ TEST(ContactPairing, LateralsCostTheSameAllAlongACrookedStem)
   EXPECT_TRUE(LeadsFrom(graph, flow, BranchOf(graph, at(6), touch), at(6)));
 }
 
-// A pair across a thick root is worth less: bent by 60 degrees, thin roots are one root only beside a thin one.
-TEST(ContactPairing, ThinRootsToBothSidesOfAThickOneSpringFromIt)
-{
-  for (const double radius : { 1.0, 4.0 })
-  {
-    GraphBuilder builder;
-    builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, radius);
-    builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, radius);
-    builder.Line({ 0, 0, 50 }, { 40, 0, 50 }, 1);
-    builder.Line({ 0, 0, 50 }, { -20, 34, 50 }, 1);
-    const SkeletonGraph graph = builder.Graph();
-    const RootBranches  branches(graph);
-    const ElementIndex  stem = BranchOf(graph, { 0, 0, 100 }, { 0, 0, 50 });
-    const ElementIndex  arriving = BranchOf(graph, { 40, 0, 50 }, { 0, 0, 50 });
-    const auto          endAt = [&](ElementIndex branch, const Spacing3 & place) {
-      const bool isFirst = graph.positions[graph.Branch(branch).front()] == place;
-      return BranchEnd{ branch, static_cast<std::uint8_t>(isFirst ? 0 : 1) };
-    };
-    RootFlow flow = FlowFrom(branches, { { endAt(stem, { 0, 0, 100 }) }, { endAt(arriving, { 40, 0, 50 }) } });
-    flow.isStem.assign(flow.isStem.size(), 0);
-    const RootPairing  pairing = PairBranches(branches, flow, {});
-    const ElementIndex leaving = BranchOf(graph, { 0, 0, 50 }, { -20, 34, 50 });
-    EXPECT_EQ(pairing.next[stem], BranchOf(graph, { 0, 0, 50 }, { 0, 0, 0 }));
-    EXPECT_EQ(pairing.next[arriving] == leaving, radius < 2) << radius;
-  }
-}
-
 TEST(ContactPairing, WhereThicknessSaysNothingTheLongerGoesOn)
 {
   for (const double longer : { -1.0, 1.0 })

@@ -352,23 +352,35 @@ TEST(RootHierarchy, WhorlsAreLateralsFromOnePlace)
   EXPECT_NEAR(roots.whorls[1].along, 50.5, 1e-9);
 }
 
-TEST(RootHierarchy, ABranchGoesOnByItsTurnAndTwiceItsLikeness)
+// Straight on is right, unless what lies beyond the other way is so much longer that it would be a level too far out.
+TEST(RootHierarchy, ABranchGoesOnStraightUnlessMostOfTheRootLiesBeyondAnother)
 {
-  // Straight on and .6 as thick is 1 + 1.2; at 60 degrees it has to be more than .85 as thick.
-  for (const double bent : { 1.6, 2.0 })
+  for (const double bent : { 60.0, 400.0 })
   {
     GraphBuilder builder;
     builder.Line({ 0, 0, 200 }, { 0, 0, 150 }, 10);
     builder.Line({ 0, 0, 150 }, { 0, 0, 0 }, 10);
     builder.Line({ 0, 0, 150 }, { 60, 0, 150 }, 2);
-    builder.Line({ 60, 0, 150 }, { 120, 0, 150 }, 1.2);
-    builder.Line({ 60, 0, 150 }, { 90, 0, 150 - 30 * std::sqrt(3.0) }, bent);
+    builder.Line({ 60, 0, 150 }, { 90, 0, 150 }, 2);
+    builder.Line({ 60, 0, 150 }, { 60 + bent / 2, 0, 150 - bent / 2 * std::sqrt(3.0) }, 2);
     const SkeletonGraph graph = builder.Graph();
     RootRules           rules;
     rules.up = Vector3{ 0, 0, 1 };
     const RootHierarchy roots = FindRoots(graph, rules);
     ASSERT_EQ(Levels(roots), (std::vector<std::int32_t>{ 0, 1, 2 }));
-    EXPECT_EQ(TipOf(graph, roots.axes[1])[0], bent > 1.7 ? 90 : 120);
+    EXPECT_EQ(TipOf(graph, roots.axes[1])[0], bent > 100 ? 60 + bent / 2 : 90);
+  }
+}
+
+TEST(RootHierarchy, NoOtherChoiceAtAContactIsBetter)
+{
+  for (const Spacing3 & touch : { Spacing3{ 0, 0, 0 }, Spacing3{ 6, 0, 0 }, Spacing3{ 0, 3, 2 } })
+  {
+    for (const RootMeeting & meeting : FindRoots(TouchingRoots(touch).Graph()).meetings)
+    {
+      EXPECT_GT(meeting.margin, 0);
+      EXPECT_EQ(meeting.arms.size(), 4U);
+    }
   }
 }
 

@@ -1,6 +1,6 @@
 #include "ContactPairing.h"
 
-#include "ContactMatching.h"
+#include "RootChoice.h"
 #include "RootNumbers.h"
 
 #include "voxelcore/UnionFind.h"
@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <tuple>
 
 namespace voxelcore
 {
@@ -19,12 +20,12 @@ namespace
 class Pairer
 {
 public:
-  Pairer(const RootBranches & branches, const RootFlow & flow, const RootRules & rules)
+  Pairer(const RootBranches & branches, RootFlow & flow, const RootRules & rules)
     : m_Branches(branches)
     , m_Flow(flow)
     , m_Rules(rules)
     , m_Clusters(branches.HubCount())
-    , m_Beyond(FindWhatFollows(branches, flow))
+    , m_Partner(2 * branches.Graph().BranchCount(), kNoRoot)
   {
     const std::size_t count = branches.Graph().BranchCount();
     m_Pairing.next.assign(count, kNoRoot);
@@ -45,11 +46,33 @@ public:
         Gather(hub);
       }
     }
-    std::vector<std::vector<ElementIndex>> members(m_Branches.HubCount());
+    FindPlaces();
+    Begin();
+    HierarchyChoice choice(m_Branches, m_Flow, m_Pairing, m_Partner);
+    choice.Search();
+    choice.ReachAll();
+    Direct(choice.Roots());
+    for (ElementIndex place = 0; place < m_Members.size(); ++place)
+    {
+      if (!m_Members[place].empty())
+      {
+        Note(m_Members[place], choice.ArmsAt(place), choice);
+      }
+    }
+    return std::move(m_Pairing);
+  }
+
+private:
+  /** Which hubs are one contact, and the branches within it. */
+  void
+  FindPlaces()
+  {
+    m_Members.assign(m_Branches.HubCount(), {});
+    m_Pairing.contact.clear();
     for (ElementIndex hub = 0; hub < m_Branches.HubCount(); ++hub)
     {
       m_Pairing.contact.push_back(static_cast<ElementIndex>(m_Clusters.Find(hub)));
-      members[m_Pairing.contact.back()].push_back(hub);
+      m_Members[m_Pairing.contact.back()].push_back(hub);
     }
     // Branches with both ends in one contact lie within it, however they came to.
     for (ElementIndex branch = 0; branch < m_Pairing.next.size(); ++branch)
@@ -58,17 +81,8 @@ public:
       const ElementIndex b = m_Branches.HubOf({ branch, 1 });
       m_Pairing.inside[branch] = a != b && m_Clusters.Find(a) == m_Clusters.Find(b) && !m_Flow.isStem[branch];
     }
-    for (const auto & hubs : members)
-    {
-      if (!hubs.empty())
-      {
-        Resolve(hubs);
-      }
-    }
-    return std::move(m_Pairing);
   }
 
-private:
   /** Joins to a hub where branches meet what belongs to the same contact. */
   void
   Gather(ElementIndex hub)
@@ -134,76 +148,123 @@ private:
     }
   }
 
-  /** Whether `branch` is `later` or comes before it on its way from the stem. */
-  bool
-  IsBefore(ElementIndex branch, ElementIndex later) const
+  void
+  MakePair(const BranchEnd & arrives, const BranchEnd & leaves)
   {
-    for (; later != kNoRoot; later = m_Flow.before[later])
-    {
-      if (later == branch)
-      {
-        return true;
-      }
-    }
-    return false;
+    m_Partner[ArmOf(arrives)] = ArmOf(leaves);
+    m_Partner[ArmOf(leaves)] = ArmOf(arrives);
   }
 
+  /** Where the choice begins: the stems; where one branch arrives, what has most junctions beyond it goes on, of
+   *  several such the longest; in contacts what is least crooked. */
   void
-  Resolve(const std::vector<ElementIndex> & hubs)
+  Begin()
+  {
+    const std::vector<WhatFollows> beyond = FindWhatFollows(m_Branches, m_Flow);
+    for (const auto & hubs : m_Members)
+    {
+      std::vector<BranchEnd> arriving;
+      std::vector<BranchEnd> leaving;
+      for (const ElementIndex hub : hubs)
+      {
+        for (const BranchEnd & end : m_Branches.EndsAt(hub))
+        {
+          const ElementIndex next = m_Flow.stemNext[end.branch];
+          const bool         arrives = m_Flow.base[end.branch] != end.last;
+          if (arrives && next != kNoRoot)
+          {
+            MakePair(end, m_Flow.Base(next));
+          }
+          if (!m_Pairing.inside[end.branch] && !m_Flow.isStem[end.branch])
+          {
+            (arrives ? arriving : leaving).push_back(end);
+          }
+        }
+      }
+      if (arriving.size() == 1)
+      {
+        const auto heir = std::ranges::max_element(leaving, {}, [&](const BranchEnd & end) {
+          return std::pair(beyond[end.branch].junctions, beyond[end.branch].length);
+        });
+        if (heir != leaving.end())
+        {
+          MakePair(arriving.front(), *heir);
+        }
+        continue;
+      }
+      std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+      for (std::size_t i = 0; i < arriving.size(); ++i)
+      {
+        for (std::size_t k = 0; k < leaving.size(); ++k)
+        {
+          const double likeness = m_Branches.Likeness(arriving[i].branch, leaving[k].branch);
+          const double crooked = RootBranches::Crooked(m_Branches.Straightness(arriving[i], leaving[k]), likeness);
+          if (crooked < kGoingOn)
+          {
+            pairs.emplace_back(crooked, i, k);
+          }
+        }
+      }
+      std::ranges::sort(pairs);
+      for (const auto & [crooked, i, k] : pairs)
+      {
+        if (m_Partner[ArmOf(arriving[i])] == kNoRoot && m_Partner[ArmOf(leaving[k])] == kNoRoot)
+        {
+          MakePair(arriving[i], leaving[k]);
+        }
+      }
+    }
+  }
+
+  /** Every root is run through from where it springs. */
+  void
+  Direct(const std::vector<ChosenRoot> & roots)
+  {
+    for (const ChosenRoot & root : roots)
+    {
+      ElementIndex before = root.parent;
+      m_Pairing.parent[root.arms[0] / 2] = root.parent;
+      for (ElementIndex arm = root.arms[0];; arm = m_Partner[arm ^ 1U])
+      {
+        const ElementIndex branch = arm / 2;
+        m_Flow.base[branch] = EndOf(arm).last;
+        m_Flow.before[branch] = before;
+        before = branch;
+        if ((arm ^ 1U) == root.arms[1])
+        {
+          break;
+        }
+        m_Pairing.next[branch] = m_Partner[arm ^ 1U] / 2;
+      }
+    }
+  }
+
+  /** What goes on as what at a place, and the contact that is there where more than one branch arrives. */
+  void
+  Note(const std::vector<ElementIndex> & hubs, const std::vector<ElementIndex> & arms, HierarchyChoice & choice)
   {
     std::vector<BranchEnd> arriving;
     std::vector<BranchEnd> leaving;
-    for (const ElementIndex hub : hubs)
+    for (const ElementIndex arm : arms)
     {
-      for (const BranchEnd & end : m_Branches.EndsAt(hub))
+      (m_Flow.base[arm / 2] == EndOf(arm).last ? leaving : arriving).push_back(EndOf(arm));
+    }
+    for (const BranchEnd & end : arriving)
+    {
+      if (m_Partner[ArmOf(end)] != kNoRoot)
       {
-        if (!m_Pairing.inside[end.branch])
-        {
-          (m_Flow.base[end.branch] == end.last ? leaving : arriving).push_back(end);
-        }
+        NoteWay(end, EndOf(m_Partner[ArmOf(end)]), hubs);
       }
     }
-    std::stable_sort(arriving.begin(), arriving.end(), [&](const BranchEnd & a, const BranchEnd & b) {
-      return m_Branches.Radius(a.branch) > m_Branches.Radius(b.branch);
+    if (arriving.size() < 2)
+    {
+      return;
+    }
+    std::ranges::stable_sort(arriving, std::ranges::greater{}, [&](const BranchEnd & end) {
+      return m_Branches.Radius(end.branch);
     });
-    if (arriving.empty())
-    {
-      // Where a stem begins: the others spring from it.
-      const auto stem =
-        std::ranges::find_if(leaving, [&](const BranchEnd & end) { return m_Flow.before[end.branch] == kNoRoot; });
-      for (auto end = leaving.begin(); stem != leaving.end() && end != leaving.end(); ++end)
-      {
-        m_Pairing.parent[end->branch] = end != stem ? stem->branch : kNoRoot;
-      }
-      return;
-    }
-    if (arriving.size() == 1)
-    {
-      ContinueBest(arriving.front(), leaving, hubs);
-      return;
-    }
-    std::vector<std::vector<double>> values(arriving.size(), std::vector<double>(leaving.size(), 0));
-    for (std::size_t i = 0; i < arriving.size(); ++i)
-    {
-      for (std::size_t k = 0; k < leaving.size(); ++k)
-      {
-        const ElementIndex next = m_Flow.stemNext[arriving[i].branch];
-        if (m_Flow.isStem[arriving[i].branch] || m_Flow.isStem[leaving[k].branch])
-        {
-          values[i][k] = next == leaving[k].branch ? kOfStem : kNoPair;
-        }
-        else if (!IsBefore(leaving[k].branch, arriving[i].branch))
-        {
-          // Thin roots to both sides of a thick one rather spring from it.
-          const double thick = m_Branches.Radius(arriving.front().branch);
-          const bool   passes = m_Branches.Radius(arriving[i].branch) < kThinBeside * thick;
-          values[i][k] = m_Branches.PairValue(arriving[i], leaving[k]) - (passes ? kOfPassing : 0);
-        }
-      }
-    }
-    const Matcher matcher(values);
-    RootMeeting   meeting;
-    meeting.margin = matcher.second >= 0 ? matcher.best.value - matcher.second : matcher.best.value;
+    RootMeeting meeting;
+    meeting.margin = choice.Margin(m_Pairing.contact[hubs.front()]);
     meeting.undecided = !leaving.empty() && meeting.margin < m_Rules.undecided;
     for (const ElementIndex hub : hubs)
     {
@@ -216,94 +277,27 @@ private:
     {
       const ElementIndex point = m_Branches.PointFrom(m_Branches.EndsAt(hub).front(), 0);
       const double       away = Distance(m_Branches.Graph().positions[point], meeting.position);
-      meeting.reach = std::max(meeting.reach, away + 1.2 * m_Branches.Graph().radius[point]);
+      meeting.reach = std::max(meeting.reach, away + kOutsideBall * m_Branches.Graph().radius[point]);
     }
-    for (const auto * ends : { &arriving, &leaving })
+    for (const BranchEnd & end : arriving)
     {
-      for (const BranchEnd & end : *ends)
+      const ElementIndex partner = m_Partner[ArmOf(end)];
+      meeting.arms.push_back(end.branch);
+      m_Pairing.endsAtMeeting[end.branch] = partner == kNoRoot;
+      if (partner != kNoRoot)
       {
-        meeting.arms.push_back(end.branch);
+        m_Pairing.undecided[end.branch] = meeting.undecided;
+        meeting.pairs.push_back({ end.branch, partner / 2 });
       }
     }
-    std::vector<std::uint8_t> hasPartner(leaving.size(), 0);
-    for (std::size_t i = 0; i < arriving.size(); ++i)
-    {
-      const int partner = matcher.best.partner[i];
-      if (partner < 0)
-      {
-        m_Pairing.endsAtMeeting[arriving[i].branch] = 1;
-        continue;
-      }
-      const BranchEnd & to = leaving[static_cast<std::size_t>(partner)];
-      hasPartner[static_cast<std::size_t>(partner)] = 1;
-      Follow(arriving[i], to, hubs);
-      m_Pairing.undecided[arriving[i].branch] = meeting.undecided;
-      meeting.pairs.push_back({ arriving[i].branch, to.branch });
-    }
-    for (std::size_t k = 0; k < leaving.size(); ++k)
-    {
-      if (!hasPartner[k])
-      {
-        // A lateral of what it came from, if that arrives here; else of the thickest.
-        m_Pairing.parent[leaving[k].branch] = arriving.front().branch;
-        for (const BranchEnd & end : arriving)
-        {
-          if (m_Branches.HubOf(end) == m_Branches.HubOf(leaving[k]) && !IsBefore(leaving[k].branch, end.branch))
-          {
-            m_Pairing.parent[leaving[k].branch] = end.branch;
-            break;
-          }
-        }
-      }
-    }
+    std::ranges::transform(leaving, std::back_inserter(meeting.arms), &BranchEnd::branch);
     m_Pairing.meetings.push_back(meeting);
   }
 
+  /** The shortest way within a contact from a branch to the one it goes on as. */
   void
-  ContinueBest(const BranchEnd & from, const std::vector<BranchEnd> & leaving, const std::vector<ElementIndex> & hubs)
+  NoteWay(const BranchEnd & from, const BranchEnd & to, const std::vector<ElementIndex> & hubs)
   {
-    double              farthest = 0;
-    std::vector<double> radii{ 0 };
-    for (const BranchEnd & end : leaving)
-    {
-      farthest = std::max(farthest, m_Beyond[end.branch].length);
-      radii.push_back(m_Branches.Radius(end.branch));
-    }
-    std::ranges::sort(radii, std::ranges::greater{});
-    const double likeness = radii[0] > 0 ? radii[1] / radii[0] : 1;
-    const double ofLength = farthest > 0 ? kOfLength * likeness * likeness / farthest : 0;
-    std::size_t  heir = leaving.size();
-    double       best = -std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < leaving.size(); ++k)
-    {
-      const WhatFollows & beyond = m_Beyond[leaving[k].branch];
-      const double        value =
-        m_Branches.Onward(from, leaving[k]) + kOfJunctions * beyond.junctions + ofLength * beyond.length;
-      const bool isNext = m_Flow.stemNext[from.branch] == leaving[k].branch;
-      if (isNext || (!m_Flow.isStem[from.branch] && value > best))
-      {
-        best = isNext ? std::numeric_limits<double>::infinity() : value;
-        heir = k;
-      }
-    }
-    for (std::size_t k = 0; k < leaving.size(); ++k)
-    {
-      if (k == heir)
-      {
-        Follow(from, leaving[k], hubs);
-      }
-      else
-      {
-        m_Pairing.parent[leaving[k].branch] = from.branch;
-      }
-    }
-  }
-
-  /** Notes that a branch goes on as another, and the shortest way between them within the contact. */
-  void
-  Follow(const BranchEnd & from, const BranchEnd & to, const std::vector<ElementIndex> & hubs)
-  {
-    m_Pairing.next[from.branch] = to.branch;
     const ElementIndex start = m_Branches.HubOf(from);
     const ElementIndex goal = m_Branches.HubOf(to);
     if (start == goal || hubs.size() == 1)
@@ -354,18 +348,19 @@ private:
     std::reverse(way.begin(), way.end());
   }
 
-  const RootBranches &     m_Branches;
-  const RootFlow &         m_Flow;
-  const RootRules &        m_Rules;
-  UnionFind                m_Clusters; ///< hubs of one contact
-  std::vector<WhatFollows> m_Beyond;   ///< per branch
-  RootPairing              m_Pairing;
+  const RootBranches &                   m_Branches;
+  RootFlow &                             m_Flow;
+  const RootRules &                      m_Rules;
+  UnionFind                              m_Clusters; ///< hubs of one contact
+  std::vector<std::vector<ElementIndex>> m_Members;  ///< per contact its hubs
+  std::vector<ElementIndex>              m_Partner;  ///< per arm
+  RootPairing                            m_Pairing;
 };
 
 } // namespace
 
 RootPairing
-PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules)
+PairBranches(const RootBranches & branches, RootFlow & flow, const RootRules & rules)
 {
   return Pairer(branches, flow, rules).Pair();
 }

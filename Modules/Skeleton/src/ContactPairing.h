@@ -19,7 +19,8 @@ struct RootPairing
   std::vector<RootMeeting>               meetings;
 };
 
+/** Directions of the flow follow, and what comes before each branch. */
 RootPairing
-PairBranches(const RootBranches & branches, const RootFlow & flow, const RootRules & rules);
+PairBranches(const RootBranches & branches, RootFlow & flow, const RootRules & rules);
 
 } // namespace voxelcore

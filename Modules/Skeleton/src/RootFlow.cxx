@@ -132,9 +132,9 @@ RootBranches::Onward(const BranchEnd & arrives, const BranchEnd & leaves) const
 }
 
 double
-RootBranches::PairValue(const BranchEnd & arrives, const BranchEnd & leaves) const
+RootBranches::Crooked(double straightness, double likeness)
 {
-  return Straightness(arrives, leaves) + Likeness(arrives.branch, leaves.branch) - 1;
+  return 0.5 * (1 - straightness) + kThinningCost * (1 - likeness);
 }
 
 namespace
@@ -177,6 +177,7 @@ public:
         m_Flow.stemNext[stem[i].branch] = i + 1 < stem.size() ? stem[i + 1].branch : kNoRoot;
       }
     }
+    FindNearStems(stems);
     for (const StemWay & stem : stems)
     {
       for (const BranchEnd & end : stem)
@@ -198,6 +199,42 @@ public:
   }
 
 private:
+  void
+  FindNearStems(const std::vector<StemWay> & stems)
+  {
+    const SkeletonGraph & graph = m_Branches.Graph();
+    m_Flow.nearStem.assign(m_Branches.HubCount(), kNoRoot);
+    for (ElementIndex hub = 0; hub < m_Flow.nearStem.size(); ++hub)
+    {
+      double least = kStemReach;
+      for (std::size_t stem = 0; stem < stems.size() && !m_Branches.EndsAt(hub).empty(); ++stem)
+      {
+        const Vector3 & place = graph.positions[m_Branches.PointFrom(m_Branches.EndsAt(hub).front(), 0)];
+        const auto [point, away] = NearestOf(stems[stem], place);
+        if (away < least * graph.radius[point])
+        {
+          least = away / graph.radius[point];
+          m_Flow.nearStem[hub] = static_cast<ElementIndex>(stem);
+        }
+      }
+    }
+  }
+
+  std::pair<ElementIndex, double>
+  NearestOf(const StemWay & stem, const Vector3 & place) const
+  {
+    std::pair<ElementIndex, double> nearest{ 0, std::numeric_limits<double>::infinity() };
+    for (const BranchEnd & end : stem)
+    {
+      for (const ElementIndex point : m_Branches.Graph().Branch(end.branch))
+      {
+        const double away = Distance(place, m_Branches.Graph().positions[point]);
+        nearest = away < nearest.second ? std::pair(point, away) : nearest;
+      }
+    }
+    return nearest;
+  }
+
   void
   Settle(ElementIndex branch, std::uint8_t base, ElementIndex before)
   {
@@ -229,6 +266,7 @@ private:
   SpreadBeyond(const BranchEnd & far, double cost, bool isStub)
   {
     // Which of them it goes on as; the others spring from it, all of them from a stem.
+    const bool   isNear = m_Flow.nearStem[m_Branches.HubOf(far)] != kNoRoot;
     ElementIndex heir = kNoRoot;
     double       best = -std::numeric_limits<double>::infinity();
     for (const BranchEnd & next : m_Branches.EndsAt(m_Branches.HubOf(far)))
@@ -246,10 +284,10 @@ private:
       {
         continue;
       }
-      const double turn = 0.5 * (1 - m_Branches.Straightness(far, next));
-      const double thinning = 1 - m_Branches.Likeness(far.branch, next.branch);
-      const double crooked = std::min(1.0, turn + kThinningCost * thinning);
-      const bool   springs = next.branch != heir && !isStub;
+      const double likeness = m_Branches.Likeness(far.branch, next.branch);
+      const double crooked =
+        isNear ? 0 : std::min(1.0, RootBranches::Crooked(m_Branches.Straightness(far, next), likeness));
+      const bool springs = !isNear && next.branch != heir && !isStub;
       m_Queue.emplace(cost + crooked * crooked + (springs ? kSpringCost : 0) +
                         kLengthCost * m_Branches.LengthOf(next.branch) / m_Radius,
                       next.branch,

@@ -91,9 +91,9 @@ public:
   /** How well a branch that arrives goes on as one that leaves: cos(turn) + kOfLikeness (thinner / thicker). */
   double
   Onward(const BranchEnd & arrives, const BranchEnd & leaves) const;
-  /** How well they go with each other in a contact: cos(turn) + (thinner / thicker) - 1. */
-  double
-  PairValue(const BranchEnd & arrives, const BranchEnd & leaves) const;
+  /** What it costs to go on from one to another: 0 straight on and as thick, 1 back. */
+  static double
+  Crooked(double straightness, double likeness);
   /** Thinner radius over thicker. */
   double
   Likeness(ElementIndex a, ElementIndex b) const;
@@ -116,6 +116,7 @@ struct RootFlow
   std::vector<ElementIndex>           stemNext; ///< per branch of a stem the next one of it; kNoRoot for others
   std::vector<std::uint8_t>           isStem;   ///< per branch
   std::vector<std::vector<BranchEnd>> arrivals; ///< per hub the ends of branches that arrive, the cheapest first
+  std::vector<ElementIndex>           nearStem; ///< per hub the source of the stem whose roots may run fused there
 
   BranchEnd
   Base(ElementIndex branch) const
@@ -128,7 +129,8 @@ struct RootFlow
 using StemWay = std::vector<BranchEnd>;
 
 /** Along the stems, and from them on by the cheapest way: turning and thinning cost, so does springing from a side, and
- *  a little does length, so that where roots touch neither is run through backwards. */
+ *  a little does length, so that where roots touch neither is run through backwards. Next to a stem, where roots of a
+ *  whorl run fused, only length costs. */
 RootFlow
 FlowFrom(const RootBranches & branches, const std::vector<StemWay> & stems);
 

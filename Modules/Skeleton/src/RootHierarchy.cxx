@@ -1,7 +1,6 @@
 #include "voxelcore/RootHierarchy.h"
 
 #include "ContactPairing.h"
-#include "RootNumbers.h"
 #include "RootStem.h"
 #include "RootSteps.h"
 #include "RootWhorls.h"
@@ -47,22 +46,6 @@ public:
       }
     }
     Grow(0);
-    // Where pairs of contacts bite their own tails a branch may be left: it is a lateral of what the way came from, in
-    // the order of that.
-    for (const ElementIndex first : FirstToLast())
-    {
-      if (m_Roots.rootOf[first] == kNoRoot && !m_Pairing.inside[first])
-      {
-        const std::size_t done = m_Roots.axes.size();
-        ElementIndex      before = m_Flow.before[first];
-        while (before != kNoRoot && m_Roots.rootOf[before] == kNoRoot)
-        {
-          before = m_Flow.before[before]; // through a contact
-        }
-        Add(first, before == kNoRoot ? kNoRoot : m_Roots.rootOf[before], before == kNoRoot);
-        Grow(done);
-      }
-    }
     SortByLevel(m_Roots);
     const RootSteps steps(m_Roots);
     m_Roots.leftOut.assign(m_Roots.rootOf.size(), LeftOut::No);
@@ -76,23 +59,6 @@ public:
   }
 
 private:
-  /** All branches, each behind the one that its way comes from. */
-  std::vector<ElementIndex>
-  FirstToLast() const
-  {
-    std::vector<std::vector<ElementIndex>> after(m_Flow.before.size());
-    std::vector<ElementIndex>              order;
-    for (ElementIndex branch = 0; branch < after.size(); ++branch)
-    {
-      m_Flow.before[branch] == kNoRoot ? order.push_back(branch) : after[m_Flow.before[branch]].push_back(branch);
-    }
-    for (std::size_t i = 0; i < order.size(); ++i)
-    {
-      order.insert(order.end(), after[order[i]].begin(), after[order[i]].end());
-    }
-    return order;
-  }
-
   /** The laterals of axes from number `at` on, and theirs. */
   void
   Grow(std::size_t at)
@@ -105,32 +71,11 @@ private:
         {
           if (m_Roots.rootOf[lateral] == kNoRoot)
           {
-            Add(lateral, ParentOf(lateral, static_cast<ElementIndex>(at)), false);
+            Add(lateral, static_cast<ElementIndex>(at), false);
           }
         }
       }
     }
-  }
-
-  /** What springs from a root where that is still within its own parent springs from the parent: of a stem as far as
-   *  roots of a whorl run fused. */
-  ElementIndex
-  ParentOf(ElementIndex lateral, ElementIndex root) const
-  {
-    const SkeletonGraph & graph = m_Branches.Graph();
-    const Vector3 &       place = graph.positions[m_Branches.PointFrom(m_Flow.Base(lateral), 0)];
-    for (ElementIndex above = m_Roots.axes[root].parent; above != kNoRoot; above = m_Roots.axes[root].parent)
-    {
-      const auto &       points = m_Roots.axes[above].points;
-      const ElementIndex near = points[NearestPoint(graph, points, place)];
-      const double       reach = m_Roots.axes[above].level == 0 ? kStemReach : kOutsideBall;
-      if (Distance(graph.positions[near], place) > reach * graph.radius[near])
-      {
-        break;
-      }
-      root = above;
-    }
-    return root;
   }
 
   void
@@ -241,8 +186,8 @@ FindRoots(const SkeletonGraph & graph, const RootRules & rules)
     roots.up = UpFrom(graph, branches.PointFrom(stems.front().front(), 0));
     stems = rules.stems == 1 ? stems : FindStems(branches, roots.up, rules);
   }
-  const RootFlow flow = FlowFrom(branches, stems);
-  RootPairing    pairing = PairBranches(branches, flow, rules);
+  RootFlow    flow = FlowFrom(branches, stems);
+  RootPairing pairing = PairBranches(branches, flow, rules);
   AxisBuilder(branches, flow, pairing, roots).Build();
   roots.meetings = std::move(pairing.meetings);
   FindWhorls(graph, rules, roots);

@@ -10,19 +10,17 @@
 //    the skeleton's middle, or higher where up is given. `stem` says where it begins and what it passes. More are
 //    taken as asked; to find how many there are, those with 0.6 of its thickness that begin in the upper quarter count.
 // 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: to turn and to thin
-//    costs, so does to spring from a side, and a little does length. Where a branch arrives at a junction that another
-//    reached before, there is a loop: two roots touch.
+//    costs, so does to spring from a side, and a little does length; next to a stem only length does. Where a branch
+//    arrives at a junction that another reached before, there is a loop: two roots touch.
 // 4. Contacts. A bridge between the two, or a stretch they share, if it is short against their radii, is part of the
-//    contact. The arms that arrive and those that leave are paired so that the sum over pairs of
-//    cos(turn) + (thinner radius / thicker radius) - 1 is greatest, less 0.6 for those thinner than 0.6 of a root that
-//    goes through beside them; a pair below 0 is not made. Directions are measured outside the contact. An arm that
-//    arrives and has no partner ends there; one that leaves and has none is a lateral. Where the next best pairing is
-//    worse by less than `undecided`, the contact is marked.
-// 5. Junctions. Elsewhere the branch goes on that is best by cos(turn) + 2 (thinner / thicker), by 0.2 for each
-//    junction on the way beyond that has most, and by up to 0.25 for the longest way beyond where they are alike in
-//    thickness; the others are its laterals, a level further out. What springs where the root is still within its own
-//    parent, or within 1.7 radii of a stem, where roots of a whorl run fused, springs from the parent. The stem has
-//    level 0.
+//    contact.
+// 5. Choice. Which branch goes on as which, at contacts and junctions alike, is chosen over the whole plant: so that
+//    least is turned and thinned, least length is on far levels, and roots have one tip. Directions are measured
+//    outside the contact. The search begins where the branch goes on beyond which most junctions lie, of several such
+//    the longest; in contacts, with the straightest. A branch that does not go on as another springs from what passes
+//    where it begins, of several such from the one of the least level, a level further out; within 1.7 radii of a
+//    stem, where roots of a whorl run fused, from the stem. The stem has level 0. Where the next best choice is worse
+//    by less than `undecided`, a contact is marked.
 // 6. Whorls. Laterals of a stem whose places along it follow each other by less than `whorlGap` stem radii form one if
 //    there are `whorlSize` of them or more.
 // Pieces that hang together with no stem have one of their own, marked as loose. `leftOut` says what is on no root.
