@@ -286,26 +286,41 @@ TEST(BranchTips, AreNotPlacedBeyondAJointWithABranchWithinItsBall)
   EXPECT_EQ(tipPlaced(true), 17.5);
 }
 
-TEST(BranchTips, OfAFlatEndLieTwoThirdsOfARadiusBeforeIt)
+TEST(BranchTips, OfAFlatEndLieHalfAVoxelBeforeIt)
 {
   // A rod along x from 10 to 70 of radius 6: its ends are planes of the grid.
-  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 80, 20, 20 } });
-  for (std::int32_t z = 0; z < 20; ++z)
+  const VoxelShape shape = ShapeWhere({ 80, 20, 20 }, [](int x, int y, int z) {
+    return x >= 10 && x < 70 && Distance({ 0, y + 0.5, z + 0.5 }, { 0, 10.1, 9.8 }) <= 6;
+  });
+  const auto       placed = PlaceTipsOf(shape);
+  ASSERT_EQ(placed.after.BranchCount(), 1U);
+  EXPECT_NEAR(placed.after.BranchLength(0), 60 - 1, 0.3);
+}
+
+TEST(BranchTips, OfTubesThatWidenOrNarrowTowardsRoundEndsLieInTheMiddleOfTheirEnds)
+{
+  for (const double slope : { -0.25, 0.25 })
   {
-    for (std::int32_t y = 0; y < 20; ++y)
+    for (const double from : { 20.0, 38.0 }) // the whole way, or its end alone
     {
-      for (std::int32_t x = 10; x < 70; ++x)
+      // Along x from 20 to 50.
+      const double     thick = slope > 0 ? 4 : 11.5 + slope * (from - 20);
+      const auto       radiusAt = [&](double x) { return thick + slope * std::max(0.0, std::min(x, 50.0) - from); };
+      const VoxelShape shape = ShapeWhere({ 70, 40, 40 }, [&](int x, int y, int z) {
+        const double along = x + 0.5;
+        const double beyond = std::max({ 0.0, 20 - along, along - 50 });
+        return std::hypot(beyond, y + 0.5 - 20.2, z + 0.5 - 19.7) <= radiusAt(along);
+      });
+      const auto       placed = PlaceTipsOf(shape);
+      ASSERT_EQ(placed.after.BranchCount(), 1U);
+      double most = 0;
+      for (const Spacing3 & place : placed.after.positions)
       {
-        if (Distance({ 0, y + 0.5, z + 0.5 }, { 0, 10.1, 9.8 }) <= 6)
-        {
-          shape.Insert(x, y, z);
-        }
+        most = std::max(most, place[0]);
       }
+      EXPECT_NEAR(most, 50, 0.6) << "slope " << slope << " from " << from;
     }
   }
-  const auto placed = PlaceTipsOf(shape);
-  ASSERT_EQ(placed.after.BranchCount(), 1U);
-  EXPECT_NEAR(placed.after.BranchLength(0), 60 - 8, 0.6);
 }
 
 TEST(BranchTips, WhereThereIsNoTubeStay)

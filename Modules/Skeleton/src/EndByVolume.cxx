@@ -45,14 +45,14 @@ FindEndByVolume(const VoxelShape & shape,
     return std::nullopt;
   }
   const BodyAtEnd body(shape, spacing, line, end);
-  const auto      height = body.IsEmpty() ? std::nullopt : HeightOfHalfBall(body, end);
-  if (!height)
+  const auto      cap = body.IsEmpty() ? std::nullopt : FindHalfBall(body, end);
+  if (!cap)
   {
     return std::nullopt;
   }
   // The body's own axis: that of the samples.
   const double from = end.isStub ? end.skip - end.total : end.skip - end.deep - 2 * std::max(radius, 3 * end.voxel);
-  return body.PlaceAt(*height, from);
+  return body.PlaceAt(cap->height + FlatEndAbove(body, end, *cap), from);
 }
 
 } // namespace voxelcore
