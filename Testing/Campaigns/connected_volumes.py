@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Random volumes of every density, cubes to slices five times as thick, read by 26 and with pieces joined: pieces, loops
-and cavities of their skeletons are held against counts of the closed cubes by SciPy and NumPy. Then bodies with cavities
-in them: curves alone, with the pieces and loops of the body that is filled.
+"""Random volumes of every density, cubes to slices five times as thick, read by 26 and with pieces joined: pieces,
+loops and cavities of their skeletons are held against counts of the closed cubes by SciPy and NumPy. Then bodies with
+cavities in them: curves alone, with the pieces and loops of the body that is filled.
 
     PYTHONPATH=build/python /usr/bin/python3 Testing/Campaigns/connected_volumes.py VOLUMES [SEED]
 

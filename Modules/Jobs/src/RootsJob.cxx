@@ -125,7 +125,8 @@ AddRemarks(RootsResult & result)
   if (model.roots.bulges.count > 0)
   {
     result.notes.push_back(Counted(static_cast<std::int64_t>(model.roots.bulges.count), "bulge", "bulges") +
-                           " left out: the surface of their root is as rough as they are high; to keep them, give --roughness 0");
+                           " left out: the surface of their root is as rough as they are high; to keep them, give "
+                           "--roughness 0");
   }
   const auto loose = std::count_if(model.roots.axes.begin(), model.roots.axes.end(), [](const RootAxis & axis) {
     return axis.loose && axis.level == 0;

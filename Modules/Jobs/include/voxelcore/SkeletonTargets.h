@@ -18,7 +18,7 @@ struct SkeletonTargets
   bool                                 network = false; ///< of a network: tables have that of its contacts, too
 
   /** Sections of the body along branches, so far apart; 0: at each point. Of scans, into one file. */
-  std::optional<Lambda> sections;
+  std::optional<Lambda> sections{};
 
   /** Whether anything is asked of the bodies around skeletons. */
   bool
