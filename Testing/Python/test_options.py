@@ -33,6 +33,7 @@ WITHOUT = {
     **dict.fromkeys(("blocks", "block", "block-size", "join", "memory"), "parts of scans that do not fit into memory"),
     "with-skeleton": "Core.skeleton()",
     "quiet": "nothing is printed",
+    "sections": "tables and contours that the program writes beside its skeleton",
     **dict.fromkeys(("separation", "within"), "measure the background as an array of its own"),
 }
 FUNCTIONS = {
@@ -76,7 +77,7 @@ def test_a_value_without_sense_is_refused_by_every_option(command):
         keyword = row["keyword"]
         ofSkeletons = command == "core" and row["group"] == "Skeleton"
         if row["command"] == command and keyword.isidentifier() and not ofSkeletons:
-            if keyword not in (*SAVING, "progress", "separation", "within"):
+            if keyword not in (*SAVING, "progress", "sections", "separation", "within"):
                 with pytest.raises((ValueError, TypeError)) as refusal:
                     function(source, **{keyword: "never"})
                 assert "unexpected keyword" not in str(refusal.value), keyword

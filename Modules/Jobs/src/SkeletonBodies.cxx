@@ -15,7 +15,7 @@ namespace
 {
 
 fs::path
-Beside(const fs::path & stem, const char * ending)
+WithEnding(const fs::path & stem, const char * ending)
 {
   return stem.string() + ending;
 }
@@ -35,7 +35,7 @@ SkeletonBodies::SkeletonBodies(const fs::path &        output,
   }
   for (const char * ending : { "_sections.csv", "_sections.vtp", "_sections.json" })
   {
-    m_Transaction.CheckTarget(Beside(m_Stem, ending));
+    m_Transaction.CheckTarget(WithEnding(m_Stem, ending));
   }
 }
 
@@ -87,9 +87,9 @@ SkeletonBodies::Add(const SkeletonPart & part)
 void
 SkeletonBodies::Finish()
 {
-  WriteSectionCsv(m_Transaction.Stage(Beside(m_Stem, "_sections.csv")), m_Sections);
-  WriteSectionVtp(m_Transaction.Stage(Beside(m_Stem, "_sections.vtp")), m_Sections, m_Geometry.unit);
-  WriteTextFile(m_Transaction.Stage(Beside(m_Stem, "_sections.json")), SectionColumnsJson(m_Geometry.unit));
+  WriteSectionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_sections.csv")), m_Sections);
+  WriteSectionVtp(m_Transaction.Stage(WithEnding(m_Stem, "_sections.vtp")), m_Sections, m_Geometry.unit);
+  WriteTextFile(m_Transaction.Stage(WithEnding(m_Stem, "_sections.json")), SectionColumnsJson(m_Geometry.unit));
 }
 
 } // namespace voxelcore
