@@ -22,42 +22,33 @@ FACES = ndimage.generate_binary_structure(3, 1)
 ALL = np.ones((3, 3, 3))
 
 
-def euler_of_closed_cubes(body):
-    """Vertices less edges plus faces less cubes of the union of closed cubes."""
-    padded = np.pad(body, 1)
+def alternating(padded, of_neighbours):
+    """Cells of the grid, each as its cubes say by `of_neighbours`: cubes less faces plus edges less vertices."""
     total = 0
-    for shared in itertools.product((0, 1), repeat=3):  # 1: the cell has no extent along that axis
+    for flat in itertools.product((0, 1), repeat=3):  # 1: no extent along that axis
         cells = padded
-        for axis, flat in enumerate(shared):
-            if flat:
-                cells = np.minimum(cells.take(range(1, cells.shape[axis]), axis) + cells.take(
-                    range(cells.shape[axis] - 1), axis), 1)
-        total += (-1) ** (3 - sum(shared)) * int(cells.sum())
+        for axis in range(3):
+            if flat[axis]:
+                last = cells.shape[axis] - 1
+                cells = of_neighbours(cells.take(range(1, last + 1), axis), cells.take(range(last), axis))
+        total += (-1) ** sum(flat) * int(cells.sum())
     return total
 
 
 def closed_betti(body):
-    """Pieces by 26, loops by Euler's number, cavities by 6."""
+    """Pieces by 26, loops by Euler's number of the closed cubes, cavities by 6."""
     padded = np.pad(body, 1)
     pieces = ndimage.label(padded, ALL)[1]
     cavities = ndimage.label(1 - padded, FACES)[1] - 1
-    return [pieces, pieces + cavities - euler_of_closed_cubes(body), cavities]
+    return [pieces, pieces + cavities + alternating(padded, np.maximum), cavities]
 
 
 def loops_by_faces(body):
-    """Loops of the 6-connected body: cells all of whose cubes are in it, counted by sign."""
+    """Loops and cavities of the 6-connected body, whose cells are those all of whose cubes are in it."""
     padded = np.pad(body, 1)
-    total = 0
-    for shared in itertools.product((0, 1), repeat=3):
-        cells = padded
-        for axis, flat in enumerate(shared):
-            if flat:
-                cells = np.minimum(cells.take(range(1, cells.shape[axis]), axis), cells.take(
-                    range(cells.shape[axis] - 1), axis))
-        total += (-1) ** sum(shared) * int(cells.sum())
     pieces = ndimage.label(padded, FACES)[1]
     cavities = ndimage.label(1 - padded, ALL)[1] - 1
-    return pieces + cavities - total, cavities
+    return pieces + cavities - alternating(padded, np.minimum), cavities
 
 
 def expected(body, way):

@@ -81,7 +81,16 @@ WriteSectionCsv(const std::filesystem::path & path, const std::vector<SectionsOf
   WriteHead(file, kSectionColumns);
   const auto vector = [&](const Vector3 & of) { file << "," << of[0] << "," << of[1] << "," << of[2]; };
   // Where there is no section, its directions are none either.
-  const auto direction = [&](const Vector3 & of) { of == Vector3{} ? file << ",,,", void() : vector(of); };
+  const auto direction = [&](const Vector3 & of) {
+    if (of == Vector3{})
+    {
+      file << ",,,";
+    }
+    else
+    {
+      vector(of);
+    }
+  };
   for (const SectionsOfPart & part : parts)
   {
     for (const BranchSection & s : part.sections)

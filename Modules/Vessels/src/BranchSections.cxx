@@ -302,10 +302,7 @@ Measure(const SectionBody &   body,
 {
   const ImageGeometry & geometry = body.geometry;
   const auto toLps = [&](const Vector3 & place) { return LatticeToPhysical(geometry, Over(place, geometry.spacing)); };
-  const auto inBody = [&](const Vector2 & at) {
-    return AddScaled(AddScaled(plane.origin, at[0], plane.across[0]), at[1], plane.across[1]);
-  };
-  auto lines = PlaneContours(sides, astray);
+  auto       lines = PlaneContours(sides, astray);
   for (Vector2 & at : lines | std::views::join)
   {
     const Vector3 way = Minus(sides.Place(at), plane.origin);
@@ -332,14 +329,14 @@ Measure(const SectionBody &   body,
   section.leastWay = wayInLps(numbers.leastWay);
   section.greatestDiameter = numbers.greatestWidth;
   section.greatestWay = wayInLps(numbers.greatestWay);
-  section.centre = toLps(inBody(numbers.centre));
+  section.centre = toLps(plane.At(numbers.centre));
   std::vector<Vector3> places;
   for (const auto & line : lines)
   {
     section.contours.emplace_back();
     for (const Vector2 & at : line)
     {
-      const Vector3 place = inBody(at);
+      const Vector3 place = plane.At(at);
       places.push_back(place);
       section.contours.back().push_back(toLps(place));
       section.isCut = section.isCut || (body.scan && IsAtBorder(*body.scan, Over(place, geometry.spacing)));

@@ -69,6 +69,12 @@ SectionPlane::SectionPlane(const Vector3 & from, const Vector3 & along, double s
   , step(side)
 {}
 
+Vector3
+SectionPlane::At(const Vector2 & way) const
+{
+  return AddScaled(AddScaled(origin, way[0], across[0]), way[1], across[1]);
+}
+
 SidesOfSurface::SidesOfSurface(const VoxelShape &      shape,
                                const SurfaceEstimate & surface,
                                const Vector3 &         spacing,
@@ -83,15 +89,19 @@ SidesOfSurface::SidesOfSurface(const VoxelShape &      shape,
 Vector3
 SidesOfSurface::Place(const Vector2 & inPlane) const
 {
-  return AddScaled(AddScaled(m_Plane.origin, m_Plane.step * inPlane[0], m_Plane.across[0]),
-                   m_Plane.step * inPlane[1],
-                   m_Plane.across[1]);
+  return m_Plane.At({ m_Plane.step * inPlane[0], m_Plane.step * inPlane[1] });
+}
+
+Vector3
+SidesOfSurface::Corner(const PlaneNode & node) const
+{
+  return Place({ static_cast<double>(node[0]), static_cast<double>(node[1]) });
 }
 
 double
 SidesOfSurface::At(const PlaneNode & node)
 {
-  const Vector3                     place = Place({ static_cast<double>(node[0]), static_cast<double>(node[1]) });
+  const Vector3                     place = Corner(node);
   const Vector3                     lattice = Over(place, m_Spacing);
   const std::array<std::int32_t, 3> corner{ Floor(lattice[0] + 0.5), Floor(lattice[1] + 0.5), Floor(lattice[2] + 0.5) };
   const unsigned                    around = m_Shape->Around(corner[0], corner[1], corner[2]);
@@ -120,8 +130,8 @@ SidesOfSurface::At(const PlaneNode & node)
 double
 SidesOfSurface::Crossing(const PlaneNode & in, const PlaneNode & out)
 {
-  const Vector3    from = Place({ static_cast<double>(in[0]), static_cast<double>(in[1]) });
-  const Vector3    way = Minus(Place({ static_cast<double>(out[0]), static_cast<double>(out[1]) }), from);
+  const Vector3    from = Corner(in);
+  const Vector3    way = Minus(Corner(out), from);
   double           at = 0.5;
   constexpr int    kSteps = 3;       // along planes that touch a surface that bends little within a square
   constexpr double kFlattest = 0.05; // a way that hardly leads to the surface meets it anywhere

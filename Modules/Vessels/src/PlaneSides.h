@@ -25,6 +25,10 @@ struct SectionPlane
 
   /** With vectors across that follow the axis right-handed. */
   SectionPlane(const Vector3 & origin, const Vector3 & axis, double step);
+
+  /** The place so far from the origin across, in mm. */
+  Vector3
+  At(const Vector2 & way) const;
 };
 
 class PlaneSides
@@ -62,6 +66,9 @@ public:
   Place(const Vector2 & inPlane) const override;
 
 private:
+  Vector3
+  Corner(const PlaneNode & node) const;
+
   const VoxelShape *      m_Shape;
   const SurfaceEstimate * m_Surface;
   Vector3                 m_Spacing;

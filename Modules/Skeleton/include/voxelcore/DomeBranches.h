@@ -14,8 +14,8 @@ namespace voxelcore
  *  their angle, stand out of theirs by 0.41 of it at most. */
 constexpr double kDomeOfRadius = 0.5;
 
-/** Beyond its greatest ball a branch into a dome goes on for so many radii of it at most, to the other side of what it
- *  leads into. A trunk that ends in two twigs goes on for longer. */
+/** A branch into a dome ends within so many radii of its greatest ball. A trunk that ends in two twigs, which are thin
+ *  beside it, goes on for longer. */
 constexpr double kDomeGoesOn = 2;
 
 /** Whether a ball is a dome beside another one whose middle is `way` from its own: greater, and standing out by

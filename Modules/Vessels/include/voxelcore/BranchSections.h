@@ -14,7 +14,7 @@ namespace voxelcore
 {
 
 /** Where a plane across a branch meets the body: the connected part around the branch. Lengths in mm; places and
- *  directions in LPS. Where the smooth surface leaves nothing of the body around the place, area, perimeter and
+ *  directions in LPS. Where the outline leaves nothing of the body around the place, area, perimeter and
  *  diameters are NaN, and there is no contour. */
 struct BranchSection
 {
@@ -43,8 +43,8 @@ struct BranchSection
   Circularity() const;
 };
 
-/** A body in the voxels of `geometry`, with the surface that its voxels stand for in mm along the axes of the grid. All
- *  must outlive the call. */
+/** A body in the voxels of `geometry`. A surface that is known better than its voxels, from grey values or a mesh, is
+ *  in mm along the axes of the grid; without one the voxels tell the outlines. All must outlive the call. */
 struct SectionBody
 {
   const VoxelShape *      shape = nullptr;
@@ -53,9 +53,9 @@ struct SectionBody
   std::optional<VoxelBox> scan; ///< whose border may cut the body
 };
 
-/** Sections at each point of each branch, or, with `every`, at places so far apart, about, from end to end. They are of
- *  the smooth surface: that of a round or flat tube has its area within 2 percent, whatever its direction. In order of
- *  branches and arcs. The same bits for every number of threads. `graph` in LPS mm of the geometry. */
+/** Sections at each point of each branch, or, with `every`, at places so far apart, about, from end to end. Those of
+ *  round and flat tubes have their area within 2 percent, whatever their direction. In order of branches and arcs. The
+ *  same bits for every number of threads. `graph` in LPS mm of the geometry. */
 std::vector<BranchSection>
 MeasureSections(const SkeletonGraph & graph, const SectionBody & body, std::optional<double> every);
 
