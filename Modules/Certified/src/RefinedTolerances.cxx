@@ -3,10 +3,17 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/ExtractPart.h"
 #include "voxelcore/TolerancePruning.h"
+#include "voxelcore/UnionFind.h"
 
 #include <algorithm>
+#include <array>
+#include <compare>
+#include <functional>
+#include <limits>
 #include <numeric>
+#include <queue>
 #include <span>
+#include <utility>
 
 namespace voxelcore
 {
@@ -63,48 +70,208 @@ private:
   std::vector<ElementIndex> m_Faces;
 };
 
+/** Of connected vertices that were taken off the greatest height, given to all that hung on them. `heights`: of what
+ *  was there; `isKept` by its vertices. */
+void
+PassOn(const CellComplex & polygons, const std::vector<std::uint8_t> & isKept, std::vector<double> & heights)
+{
+  UnionFind taken(polygons.vertexCount);
+  for (const auto & [a, b] : polygons.edges)
+  {
+    if (isKept[a] == 0 && isKept[b] == 0)
+    {
+      taken.Unite(a, b);
+    }
+  }
+  std::vector<double> greatest(polygons.vertexCount, 0);
+  for (std::size_t vertex = 0; vertex < isKept.size(); ++vertex)
+  {
+    double & one = greatest[taken.Find(vertex)];
+    one = std::max(one, isKept[vertex] == 0 ? heights[vertex] : 0);
+  }
+  for (const auto & [a, b] : polygons.edges)
+  {
+    if (isKept[a] != isKept[b])
+    {
+      const ElementIndex stays = isKept[a] != 0 ? a : b;
+      heights[stays] = std::max(heights[stays], greatest[taken.Find(stays == a ? b : a)]);
+    }
+  }
+}
+
+/** Raises heights to those at which elements go by simple pairs, whose own heights both say so; infinity for what never
+ *  does. */
+void
+RaiseToRemoval(const CellComplex & cells, ToleranceValues & values)
+{
+  struct Pair
+  {
+    double       height;
+    bool         isFace; ///< with an edge; else an edge with a vertex
+    ElementIndex upper;
+    ElementIndex lower;
+    auto
+    operator<=>(const Pair &) const = default;
+  };
+  constexpr double                                             never = std::numeric_limits<double>::infinity();
+  std::vector<Cofaces>                                         edgesAt = CountVertexCofaces(cells);
+  std::vector<Cofaces>                                         facesAt = CountEdgeCofaces(cells);
+  std::priority_queue<Pair, std::vector<Pair>, std::greater<>> free;
+  ToleranceValues                                              raised;
+  raised.vertices.assign(values.vertices.size(), never);
+  raised.edges.assign(values.edges.size(), never);
+  raised.faces.assign(values.faces.size(), never);
+  std::vector<std::uint8_t> edgeIsGone(cells.edges.size(), 0);
+  const auto                add = [&](bool isFace, ElementIndex upper, ElementIndex lower) {
+    const double height = isFace ? std::max(values.faces[upper], values.edges[lower])
+                                                : std::max(values.edges[upper], values.vertices[lower]);
+    if (height < never)
+    {
+      free.push({ height, isFace, upper, lower });
+    }
+  };
+  const auto addEdge = [&](ElementIndex edge) {
+    if (facesAt[edge].count == 1)
+    {
+      add(true, facesAt[edge].exclusiveOr, edge);
+    }
+  };
+  const auto addVertex = [&](ElementIndex vertex) {
+    const Cofaces & at = edgesAt[vertex];
+    if (at.count == 1 && facesAt[at.exclusiveOr].count == 0)
+    {
+      add(false, at.exclusiveOr, vertex);
+    }
+  };
+  for (ElementIndex edge = 0; edge < cells.edges.size(); ++edge)
+  {
+    addEdge(edge);
+  }
+  for (ElementIndex vertex = 0; vertex < cells.vertexCount; ++vertex)
+  {
+    addVertex(vertex);
+  }
+  const auto dropEdge = [&](ElementIndex edge, double level) {
+    raised.edges[edge] = level;
+    edgeIsGone[edge] = 1;
+    for (const ElementIndex end : cells.edges[edge])
+    {
+      edgesAt[end].Remove(edge);
+    }
+  };
+  for (double level = 0; !free.empty();)
+  {
+    const Pair pair = free.top();
+    free.pop();
+    if (pair.isFace ? facesAt[pair.lower].count != 1 : edgeIsGone[pair.upper] != 0 || edgesAt[pair.lower].count != 1)
+    {
+      continue;
+    }
+    level = std::max(level, pair.height);
+    if (!pair.isFace)
+    {
+      dropEdge(pair.upper, level);
+      raised.vertices[pair.lower] = level;
+      addVertex(cells.edges[pair.upper][0] ^ cells.edges[pair.upper][1] ^ pair.lower);
+      continue;
+    }
+    raised.faces[pair.upper] = level;
+    dropEdge(pair.lower, level);
+    for (const ElementIndex edge : cells.FaceEdges(pair.upper))
+    {
+      facesAt[edge].Remove(pair.upper);
+      if (edge != pair.lower)
+      {
+        addEdge(edge);
+      }
+    }
+    for (const ElementIndex edge : cells.FaceEdges(pair.upper))
+    {
+      std::for_each(cells.edges[edge].begin(), cells.edges[edge].end(), addVertex);
+    }
+  }
+  values = std::move(raised);
+}
+
 } // namespace
 
 ToleranceValues
-TolerancesOfTriangles(const CellComplex & triangles, const MedialComplex & whole, double height)
+TolerancesOfTriangles(const CellComplex &               triangles,
+                      const std::vector<ElementIndex> & kept,
+                      const MedialComplex &             whole,
+                      double                            height)
 {
   PartElements      left;
   const CellComplex polygons =
     ExtractLive(whole.cells, LeftByTolerance(whole, height), left.vertices, left.edges, left.faces);
-  if (polygons.vertexCount != triangles.vertexCount)
+  if (kept.size() != triangles.vertexCount || (!kept.empty() && kept.back() >= polygons.vertexCount))
   {
     throw Error("a refined core has other vertices than its tolerance leaves");
   }
-  ToleranceValues       values;
-  const FacesAtVertices faces(polygons);
-  values.vertices.reserve(left.vertices.size());
-  for (const ElementIndex vertex : left.vertices)
+  ToleranceValues           values;
+  const FacesAtVertices     faces(polygons);
+  std::vector<std::uint8_t> isKept(polygons.vertexCount, 0);
+  std::vector<double>       heights(polygons.vertexCount);
+  for (std::size_t vertex = 0; vertex < heights.size(); ++vertex)
   {
-    values.vertices.push_back(whole.tolerances.vertices[vertex]);
+    heights[vertex] = whole.tolerances.vertices[left.vertices[vertex]];
+  }
+  for (const ElementIndex vertex : kept)
+  {
+    isKept[vertex] = 1;
+  }
+  const bool isWhole = kept.size() == polygons.vertexCount;
+  if (!isWhole)
+  {
+    PassOn(polygons, isKept, heights);
+  }
+  values.vertices.reserve(kept.size());
+  for (const ElementIndex vertex : kept)
+  {
+    values.vertices.push_back(heights[vertex]);
   }
   values.faces.resize(triangles.FaceCount());
   values.edges.resize(triangles.edges.size());
+  std::vector<std::uint8_t> isKnown(triangles.edges.size(), 0);
   for (std::size_t face = 0; face < values.faces.size(); ++face)
   {
-    values.faces[face] = whole.tolerances.faces[left.faces[faces.WithCorners(triangles.FaceVertices(face))]];
+    const auto                  own = triangles.FaceVertices(face);
+    std::array<ElementIndex, 3> corners{ kept[own[0]], kept[own[1]], kept[own[2]] };
+    values.faces[face] = whole.tolerances.faces[left.faces[faces.WithCorners(corners)]];
     for (const ElementIndex edge : triangles.FaceEdges(face))
     {
       values.edges[edge] = values.faces[face];
+      isKnown[edge] = 1;
     }
   }
   // Those that are no cuts are edges of the core.
   std::size_t edge = 0;
   for (std::size_t own = 0; own < polygons.edges.size(); ++own)
   {
-    while (edge < values.edges.size() && triangles.edges[edge] < polygons.edges[own])
+    const auto ends = [&] {
+      return std::array<ElementIndex, 2>{ kept[triangles.edges[edge][0]], kept[triangles.edges[edge][1]] };
+    };
+    while (edge < values.edges.size() && ends() < polygons.edges[own])
     {
       ++edge;
     }
-    if (edge == values.edges.size() || triangles.edges[edge] != polygons.edges[own])
+    if (edge < values.edges.size() && ends() == polygons.edges[own])
+    {
+      values.edges[edge] = whole.tolerances.edges[left.edges[own]];
+      isKnown[edge] = 1;
+    }
+    else if (isKept[polygons.edges[own][0]] != 0 && isKept[polygons.edges[own][1]] != 0)
     {
       throw Error("a refined core lacks an edge that its tolerance leaves");
     }
-    values.edges[edge] = whole.tolerances.edges[left.edges[own]];
+  }
+  if (std::find(isKnown.begin(), isKnown.end(), 0) != isKnown.end())
+  {
+    throw Error("a refined core has an edge that its tolerance does not leave");
+  }
+  if (!isWhole)
+  {
+    RaiseToRemoval(triangles, values);
   }
   return values;
 }

@@ -1,12 +1,12 @@
 #include "KeepCovered.h"
 
-#include "voxelcore/BallTree.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace voxelcore
 {
@@ -37,7 +37,7 @@ public:
     , m_Cover(input.Boundary().size(), 0)
   {}
 
-  std::vector<ElementIndex>
+  CoveredBoundary
   Run()
   {
     std::vector<std::uint32_t> open = FindOpen(m_Cover.size(), [](std::size_t i) { return i; });
@@ -68,11 +68,11 @@ public:
         back.push_back(static_cast<ElementIndex>(vertex));
       }
     }
-    return back;
+    return { std::move(*m_Balls), std::move(m_Cover), std::move(back) };
   }
 
 private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  static constexpr std::uint32_t kNone = CoveredBoundary::kOpen;
 
   struct Ball
   {
@@ -136,8 +136,9 @@ private:
   std::vector<std::uint32_t>
   FindOpen(std::size_t count, const TPoint & pointAt)
   {
-    const BallTree balls(m_Refined.core.positions, m_Refined.core.radius, m_Weights);
-    const auto     last = static_cast<std::ptrdiff_t>(count);
+    m_Balls.emplace(m_Refined.core.positions, m_Refined.core.radius, m_Weights);
+    const BallTree & balls = *m_Balls;
+    const auto       last = static_cast<std::ptrdiff_t>(count);
 #pragma omp parallel if (last > 4096)
     {
       std::size_t nearest = 0;
@@ -282,12 +283,13 @@ private:
   const std::vector<double>  m_Radius; ///< at their ends
   std::vector<int>           m_Steps;  ///< of the way, by vertex
   std::vector<std::uint32_t> m_Cover;  ///< a ball that covers each boundary vertex
+  std::optional<BallTree>    m_Balls;  ///< since they last went back
   std::optional<BallTree>    m_FormerBalls;
 };
 
 } // namespace
 
-std::vector<ElementIndex>
+CoveredBoundary
 KeepBoundaryCovered(const RefinementInput & input,
                     const PointTree &       boundary,
                     double                  height,

@@ -3,6 +3,7 @@
 
 #include "PointTree.h"
 
+#include "voxelcore/BallTree.h"
 #include "voxelcore/Refinement.h"
 
 #include <vector>
@@ -17,11 +18,21 @@ struct FormerBalls
   std::vector<double>  radius;    ///< mm
 };
 
+/** The balls of a refined core, and which one of them covers each boundary vertex. */
+struct CoveredBoundary
+{
+  static constexpr std::uint32_t kOpen = 0xFFFFFFFF; ///< none does
+
+  BallTree                   balls;
+  std::vector<std::uint32_t> ball;
+  std::vector<ElementIndex>  back; ///< the vertices that have gone back, ascending
+};
+
 /** Takes back of moves and radii what leaves a boundary vertex farther than `height` mm from all balls that lay within
  *  it of a ball before. Of the balls that kept it the one goes back that has least to, in sixteenths of its way; radii
  *  stay within half a voxel's diagonal of the distance of the nearest boundary vertex, vertices in the shape, triangles
- *  unturned. Returns the vertices that have gone back, ascending. The same bits for every number of threads. */
-std::vector<ElementIndex>
+ *  unturned. The same bits for every number of threads. */
+CoveredBoundary
 KeepBoundaryCovered(const RefinementInput & input,
                     const PointTree &       boundary,
                     double                  height,

@@ -4,6 +4,7 @@
 #include "KeepCovered.h"
 #include "PointTree.h"
 #include "RefinementState.h"
+#include "TrimRims.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/Vectors.h"
@@ -14,6 +15,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace voxelcore
 {
@@ -100,11 +102,21 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
     working.Move(finder, progress);
     FormerBalls former;
     refined.push_back(working.Finish(finder, threshold, former));
+    std::vector<ElementIndex> moved;
+    if (height)
+    {
+      moved = working.MoveRims(finder, former, refined.back());
+    }
     BoundRadii(boundary, input.spacing, former.radius, refined.back());
     if (height)
     {
-      const double most = std::max(*height, 0.5 * Length(input.spacing));
-      working.MeasureAgain(finder, KeepBoundaryCovered(input, boundary, most, former, refined.back()), refined.back());
+      const double    most = std::max(*height, 0.5 * Length(input.spacing));
+      CoveredBoundary covered = KeepBoundaryCovered(input, boundary, most, former, refined.back());
+      moved.insert(moved.end(), covered.back.begin(), covered.back.end());
+      std::sort(moved.begin(), moved.end());
+      moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+      working.MeasureAgain(finder, moved, refined.back());
+      TrimRims(input, most, std::move(covered), refined.back());
     }
   };
   const auto end = [&] {

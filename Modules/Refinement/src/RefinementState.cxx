@@ -1,6 +1,7 @@
 #include "RefinementState.h"
 
 #include "MoveGuard.h"
+#include "SmoothRims.h"
 #include "voxelcore/ParallelTasks.h"
 #include "voxelcore/Vectors.h"
 
@@ -326,6 +327,22 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
     refined.core.positions[vertex] = AddScaled(refined.core.positions[vertex], 1, refined.displacement[vertex]);
   }
   return refined;
+}
+
+std::vector<ElementIndex>
+RefinementState::MoveRims(const FootPointFinder & finder, const FormerBalls & former, RefinedCore & refined)
+{
+  std::vector<ElementIndex> moved = SmoothRims(m_Input, former, refined);
+  for (const ElementIndex vertex : moved)
+  {
+    m_Displacement[vertex] = refined.displacement[vertex];
+  }
+  MeasureVertices(finder, moved);
+  for (const ElementIndex vertex : moved)
+  {
+    refined.core.radius[vertex] = m_Radius[vertex] - m_Swelling[vertex];
+  }
+  return moved;
 }
 
 void

@@ -42,6 +42,10 @@ public:
   RefinedCore
   Finish(const FootPointFinder & finder, double threshold, FormerBalls & former);
 
+  /** Smooths the rims of what Finish() left at threshold 0, and takes radii there. Returns what has moved. */
+  std::vector<ElementIndex>
+  MoveRims(const FootPointFinder & finder, const FormerBalls & former, RefinedCore & refined);
+
   /** The measures of what Finish() left at threshold 0, some vertices of which have gone elsewhere. */
   void
   MeasureAgain(const FootPointFinder & finder, const std::vector<ElementIndex> & moved, RefinedCore & refined);

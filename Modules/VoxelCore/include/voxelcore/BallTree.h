@@ -42,6 +42,13 @@ public:
     return m_Balls[number].index;
   }
 
+  /** Gives a ball, by the tree's own number, a radius of at most what it had at first; -infinity takes it out. */
+  void
+  SetRadius(std::size_t number, double radius)
+  {
+    m_Balls[number].radius = radius;
+  }
+
   /** The balls whose gap is at most `most`, ascending. Thread-safe. */
   void
   FindWithin(const std::array<double, 3> & place, double most, std::vector<std::uint32_t> & found) const;
