@@ -71,7 +71,8 @@ CertifyRefined(RefinedCore            refined,
   numbers.refined = RequireRefined(refined, voxels, shape.name, what);
   if (numbers.tolerance)
   {
-    refined.core.tolerances = TolerancesOfTriangles(refined.core.cells, refined.kept, whole, numbers.tolerance->heightMm);
+    refined.core.tolerances =
+      TolerancesOfTriangles(refined.core.cells, refined.kept, whole, numbers.tolerance->heightMm);
   }
   std::vector<double> margins;
   if (ofLabels)
