@@ -1,5 +1,7 @@
 #include "CertifiedFixtures.h"
 #include "VoxelCoreTesting/Messages.h"
+#include "VoxelCoreTesting/Random.h"
+#include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/Refinement.h"
 
@@ -204,6 +206,33 @@ TEST(CertifiedCore, ARefinedOnePrunedOnByToleranceHasTheCellsOfOneRefinedThere)
       EXPECT_EQ(core.tolerances.faces, once.tolerances.faces);
       EXPECT_GT(core.cells.FaceCount(), 10U);
     }
+  }
+}
+
+// What was trimmed at its rims has heights of its own, of which each greater tolerance leaves what has the topology.
+TEST(CertifiedCore, ARefinedOneWithTrimmedRimsKeepsItsTopologyWhenPrunedOn)
+{
+  testing::Random  random(11);
+  const VoxelShape ellipsoid = testing::Ellipsoid(40);
+  const VoxelShape rough = testing::ShapeWhere({ 40, 40, 40 }, [&](int x, int y, int z) {
+    return ellipsoid.Contains(x, y, z) && (ellipsoid.Contains(x, y, z + 1) || random.Chance(0.7));
+  });
+  for (const VoxelShape & shape : { ellipsoid, rough })
+  {
+    CertifiedRequest request;
+    request.tolerances = { ParseTolerance("1.2diag") };
+    const CertifiedResult refined = ComputeCertified(shape, Grid({ 1, 1, 1 }), request);
+    ASSERT_TRUE(refined.cores[0].numbers.refined.has_value());
+    EXPECT_EQ(refined.cores[0].numbers.complex.topology, refined.shape.topology);
+    std::size_t faces = refined.cores[0].core.core.cells.FaceCount();
+    for (const char * height : { "1.21diag", "1.4diag", "1.7diag", "2.5diag", "8diag" })
+    {
+      const auto later = PruneCertified(refined.cores[0], refined.shape, { ParseTolerance(height) });
+      EXPECT_EQ(later[0].numbers.complex.topology, refined.shape.topology) << height;
+      EXPECT_LE(later[0].core.core.cells.FaceCount(), faces) << height;
+      faces = later[0].core.core.cells.FaceCount();
+    }
+    EXPECT_EQ(faces, 0U);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "voxelcore/CertifiedThickness.h"
 
 #include "VoxelCoreTesting/Random.h"
+#include "VoxelCoreTesting/Shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -193,6 +194,42 @@ ExpectSameEverywhere(std::uint64_t seed)
   const Computed corner = Compute(seed, { { 0, 0, 0 }, { 0, 0, 0 }, 0 }, geometry);
   ExpectSame(corner, Compute(seed, { any(1, 70), { 0, 0, 0 }, 13 }, geometry));
   ExpectSame(corner, Compute(seed, { any(100, 400), any(0, 9), 50 }, geometry));
+}
+
+TEST(PlaceInGrid, MakesNoDifferenceToRefinedRims)
+{
+  const VoxelShape   shape = testing::Ellipsoid(40);
+  constexpr Lower    by{ 61, 5, 203 };
+  VoxelShape         moved(VoxelBox{ by, { 40, 40, 40 } });
+  const std::int32_t side = 40;
+  for (std::int32_t z = 0; z < side; ++z)
+  {
+    for (std::int32_t y = 0; y < side; ++y)
+    {
+      for (std::int32_t x = 0; x < side; ++x)
+      {
+        if (shape.Contains(x, y, z))
+        {
+          moved.Insert(by[0] + x, by[1] + y, by[2] + z);
+        }
+      }
+    }
+  }
+  CertifiedRequest request;
+  request.tolerances = { ParseTolerance("1.2diag") };
+  ImageGeometry grid = Grid({ 1, 1, 1 });
+  grid.size = { 300, 300, 300 };
+  const CertifiedResult here = ComputeCertified(shape, grid, request);
+  const CertifiedResult there = ComputeCertified(moved, grid, request);
+  const MedialComplex & a = here.cores[0].core.core;
+  const MedialComplex & b = there.cores[0].core.core;
+  EXPECT_GT(a.cells.FaceCount(), 100U);
+  EXPECT_EQ(Places(here.shape, a.positions), Places(there.shape, b.positions));
+  EXPECT_EQ(here.cores[0].core.displacement, there.cores[0].core.displacement);
+  EXPECT_EQ(a.radius, b.radius);
+  EXPECT_EQ(a.cells.edges, b.cells.edges);
+  EXPECT_EQ(a.cells.faceVertices, b.cells.faceVertices);
+  EXPECT_EQ(a.tolerances.faces, b.tolerances.faces);
 }
 
 TEST(PlaceInGrid, MakesNoDifferenceToCoresSkeletonsSheetsAndThickness)
