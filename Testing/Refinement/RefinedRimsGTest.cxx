@@ -277,7 +277,7 @@ TEST(RefineByTolerance, LeavesTheSameRimsForAnyNumberOfThreads)
 }
 
 // The middle sheet of a flat box has corners, and from each of them the line on which sheets meet leads to a corner of
-// the box, as far as a ball must for that corner to lie within the tolerance. The former stay within a tenth of a voxel;
+// the box, as far as a ball must for that corner to lie within the tolerance. The former stay within 0.1 voxel;
 // the latter may end as a hair, and lie up to 1.03 voxels before there.
 TEST(RefineByTolerance, KeepsTheCornersOfABoxsSheets)
 {
