@@ -73,6 +73,16 @@ TEST(PageModel, PointsOfASkeletonWithoutABranchAreThere)
   EXPECT_FALSE(page.at("ranges").contains("ErosionThickness"));
 }
 
+TEST(PageModel, ALabelThatWouldShowLittleOfACommonRangeBeginsWithItsOwn)
+{
+  DisplayContent content;
+  content.labels.push_back(LabelOf(Box({ 60, 60, 1 }), 1, "plate"));
+  EXPECT_EQ(Json::parse(MakePageModel(content, {}).json).at("ownRanges"), Json::array());
+  content.labels.push_back(LabelOf(Box({ 9, 9, 9 }, { 0, 0, 30 }), 2, "cube"));
+  const Json page = Json::parse(MakePageModel(content, {}).json);
+  EXPECT_EQ(page.at("ownRanges"), Json::array({ "Radius", "Lambda" }));
+}
+
 TEST(PageModel, NoNameEndsTheScriptOrTheJson)
 {
   DisplayContent    content;

@@ -62,6 +62,24 @@ TEST(ColorRange, LeavesOutTwoPerCentOfTheWeightAtEachEnd)
   EXPECT_EQ(all.high, 1000);
 }
 
+TEST(ColorRange, IsOfEachLabelWhereMostWouldShowLittleOfOneForAll)
+{
+  const auto       need = [](std::vector<LabelRange> labels) { return NeedOwnRanges(labels, { 0, 8, 0, 8 }); };
+  const LabelRange thin{ { 0, 1, 0, 1 }, 6 };
+  const LabelRange wide{ { 0, 8, 0, 8 }, 5 };
+  EXPECT_TRUE(need({ thin, wide }));
+  EXPECT_FALSE(need({ thin, wide, wide }));
+  EXPECT_FALSE(need({ { { 0, 2, 0, 2 }, 6 }, wide }));
+  EXPECT_FALSE(need({ wide }));
+  EXPECT_FALSE(need({}));
+  EXPECT_FALSE(need({ LabelRange{} }));
+  // One value everywhere is all there is.
+  EXPECT_FALSE(NeedOwnRanges(std::vector<LabelRange>{ { { 3, 3, 3, 3 }, 6 } }, { 3, 3, 3, 3 }));
+  const LabelRange measured = RangeOfLabel({ { 1, 2 }, { 5, 3 }, { HUGE_VAL, 7 } });
+  EXPECT_EQ(measured.range.high, 5);
+  EXPECT_EQ(measured.weight, 5);
+}
+
 TEST(ColorRange, GoesByAreaNotByNumber)
 {
   // A million specks of radius 9 weigh less than one large part.

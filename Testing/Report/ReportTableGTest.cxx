@@ -45,6 +45,22 @@ TEST(ReportTable, HasARowPerLabelAndAColumnPerLambda)
   EXPECT_NE(ReportTable(report).find("FAILED"), std::string::npos);
 }
 
+TEST(ReportTable, ACsvNamesWhatItsPartsWerePrunedBy)
+{
+  CoreReport  report;
+  LabelRecord label;
+  label.pruned.resize(1);
+  label.pruned[0].lambda = "2mm";
+  report.labels = { label };
+  EXPECT_TRUE(LabelTableCsv(report).starts_with("label,name,component,lambda,voxels,"));
+  report.parameters.tolerances = { "1.2diag" };
+  report.labels[0].pruned[0].tolerance = ToleranceNumbers{};
+  report.labels[0].pruned[0].tolerance->height = "1.2diag";
+  const std::string csv = LabelTableCsv(report);
+  EXPECT_TRUE(csv.starts_with("label,name,component,tolerance,voxels,"));
+  EXPECT_NE(csv.find(",1.2diag,"), std::string::npos);
+}
+
 TEST(ReportTable, NanometresAreNoZeros)
 {
   CoreReport report;

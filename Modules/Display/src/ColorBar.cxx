@@ -78,12 +78,12 @@ RoundTicks(double low, double high, int parts)
 }
 
 ColorBar
-DescribeColorBar(const PictureOptions & options, const ColorRange & range, SpatialUnit lengths)
+DescribeColorBar(const PictureOptions & options, const ColorRange & range, bool eachLabel, SpatialUnit lengths)
 {
   ColorBar          bar;
   const std::string quantity = QuantityOf(options.coloring);
   const std::string shares = Percent(options.shares.low) + " to " + Percent(options.shares.high) + " %";
-  if (options.eachLabel)
+  if (eachLabel)
   {
     bar.title = quantity;
     bar.caption = "of each label";

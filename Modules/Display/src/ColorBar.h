@@ -22,7 +22,10 @@ struct ColorBar
 
 /** In nm, um or mm, whichever suits the range, or voxels; ends with values beyond them as "≤ 1.2" and "≥ 9.5". */
 ColorBar
-DescribeColorBar(const PictureOptions & options, const ColorRange & range, SpatialUnit unit = SpatialUnit::Millimetres);
+DescribeColorBar(const PictureOptions & options,
+                 const ColorRange &     range,
+                 bool                   eachLabel,
+                 SpatialUnit            unit = SpatialUnit::Millimetres);
 
 /** Round numbers that split a range into about `parts`. */
 std::vector<double>

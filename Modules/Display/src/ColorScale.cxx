@@ -46,15 +46,21 @@ ColorScale::ColorScale(const DisplayContent & content, const PictureOptions & op
     m_Range.low = (*options.range)[0];
     m_Range.high = (*options.range)[1];
   }
-  m_Bar = DescribeColorBar(options, m_Range, content.unit);
-  if (!options.eachLabel)
+  std::vector<LabelRange> ranges;
+  for (const DisplayLabel & label : content.labels)
+  {
+    ranges.push_back(RangeOfLabel(ShownValues(label, options.coloring), options.shares));
+  }
+  const bool eachLabel = options.eachLabel.value_or(!options.range && NeedOwnRanges(ranges, m_Range));
+  m_Bar = DescribeColorBar(options, m_Range, eachLabel, content.unit);
+  if (!eachLabel)
   {
     m_Tables = { MakeTable(m_Range) };
     return;
   }
-  for (const DisplayLabel & label : content.labels)
+  for (const LabelRange & label : ranges)
   {
-    m_Tables.push_back(MakeTable(RangeOfLabels({ &label, 1 }, options.coloring, options.shares)));
+    m_Tables.push_back(MakeTable(label.range));
   }
 }
 

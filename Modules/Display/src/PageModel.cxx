@@ -177,6 +177,7 @@ public:
                      { "adler32", Adler32(m_Numbers.Bytes()) },
                      { "map", map },
                      { "ranges", RangesJson(m_Ranges) },
+                     { "ownRanges", m_OwnRanges },
                      { "triangles", m_ShownTriangles },
                      { "allTriangles", m_AllTriangles },
                      { "labels", labels } };
@@ -206,9 +207,11 @@ private:
     for (std::size_t i = 0; i < kArrays.size(); ++i)
     {
       std::vector<std::vector<WeightedValue>> values(count);
+      std::vector<LabelRange>                 ofLabels(count);
       RunEach(count, [&](std::size_t k) {
         values[k] = ShownValues(m_Content.labels[k], kColorings[i]);
-        m_LabelRanges[k][i] = RangeOfShares(values[k]);
+        ofLabels[k] = RangeOfLabel(values[k]);
+        m_LabelRanges[k][i] = ofLabels[k].range;
       });
       std::vector<WeightedValue> all;
       for (const auto & some : values)
@@ -216,6 +219,10 @@ private:
         all.insert(all.end(), some.begin(), some.end());
       }
       m_Ranges[i] = RangeOfShares(std::move(all));
+      if (NeedOwnRanges(ofLabels, m_Ranges[i]))
+      {
+        m_OwnRanges.push_back(kArrays[i]);
+      }
       for (std::size_t k = 0; k < count; ++k)
       {
         for (const ValueArrays & arrays : { MedialArrays(m_Content.labels[k]), CurveArrays(m_Content.labels[k]) })
@@ -378,14 +385,15 @@ private:
     return json;
   }
 
-  const DisplayContent &  m_Content;
-  const HtmlOptions &     m_Options;
-  std::vector<ShownLabel> m_Shown;
-  Ranges                  m_Ranges;
-  std::vector<Ranges>     m_LabelRanges;
-  std::size_t             m_AllTriangles = 0;
-  std::size_t             m_ShownTriangles = 0;
-  PageNumbers             m_Numbers;
+  const DisplayContent &    m_Content;
+  const HtmlOptions &       m_Options;
+  std::vector<ShownLabel>   m_Shown;
+  Ranges                    m_Ranges;
+  std::vector<Ranges>       m_LabelRanges;
+  std::vector<const char *> m_OwnRanges; ///< arrays that each label shows over its own range at first
+  std::size_t               m_AllTriangles = 0;
+  std::size_t               m_ShownTriangles = 0;
+  PageNumbers               m_Numbers;
 };
 
 } // namespace

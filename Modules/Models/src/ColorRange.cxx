@@ -192,6 +192,33 @@ ShownValues(const DisplayLabel & label, PictureColoring coloring)
   return values;
 }
 
+LabelRange
+RangeOfLabel(const std::vector<WeightedValue> & values, const ColorShares & shares)
+{
+  LabelRange label{ RangeOfShares(values, shares) };
+  for (const WeightedValue & v : values)
+  {
+    label.weight += std::isfinite(v.value) ? v.weight : 0;
+  }
+  return label;
+}
+
+bool
+NeedOwnRanges(std::span<const LabelRange> labels, const ColorRange & all)
+{
+  double narrow = 0;
+  double sum = 0;
+  for (const LabelRange & label : labels)
+  {
+    if (!label.range.IsEmpty())
+    {
+      narrow += 4 * (label.range.high - label.range.low) < all.high - all.low ? label.weight : 0;
+      sum += label.weight;
+    }
+  }
+  return sum > 0 && 2 * narrow >= sum;
+}
+
 ColorRange
 RangeOfLabels(std::span<const DisplayLabel> labels, PictureColoring coloring, const ColorShares & shares)
 {

@@ -34,13 +34,16 @@ ReadColorRange(const ParameterReader & reader, RenderJobOptions & options)
   {
     reader.ThrowUsageError("range", "LO:HI with LO < HI, in mm such as 0:5, or in per cent such as 2%:98% or 0%:100%");
   }
-  options.eachLabel = reader.IsSet("each-label");
+  if (reader.IsSet("each-label") || reader.IsGiven("range"))
+  {
+    options.eachLabel = reader.IsSet("each-label");
+  }
   if (shares)
   {
     options.shares = { values[0] / 100, values[1] / 100 };
     return;
   }
-  if (options.eachLabel)
+  if (*options.eachLabel)
   {
     throw UsageError("--each-label: each label has its own range, so give --range in per cent, such as 2%:98%");
   }

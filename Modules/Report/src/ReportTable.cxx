@@ -167,8 +167,8 @@ std::string
 LabelTableCsv(const CoreReport & report)
 {
   std::string text =
-    InUnit("label,name,component,lambda,voxels,volume_mm3,vertices,edges,faces,area_mm2,max_radius_mm,b0,b1,b2\n",
-           report.input.geometry.unit);
+    std::string("label,name,component,") + (report.parameters.tolerances.empty() ? "lambda" : "tolerance") +
+    InUnit(",voxels,volume_mm3,vertices,edges,faces,area_mm2,max_radius_mm,b0,b1,b2\n", report.input.geometry.unit);
   for (const LabelRecord & label : report.labels)
   {
     for (const PrunedRecord & pruned : label.pruned)

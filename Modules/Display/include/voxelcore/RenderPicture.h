@@ -33,9 +33,10 @@ struct PictureOptions
   std::optional<std::array<double, 2>> range;          ///< mm that the colour map runs over; else `shares`
   ColorShares                          shares;
   bool                                 anatomical = true; ///< whether the axes are the patient's: else no letters
-  bool                                 eachLabel = false; ///< the map runs over each label's own range
-  int                                  frames = 1;        ///< of a full turn around the vertical
-  int                                  tile = 2048;       ///< pixels along each side that are drawn at a time
+  std::optional<bool>                  eachLabel;         ///< the map runs over each label's own range; else where
+                                                          ///< NeedOwnRanges() and no `range` is given
+  int frames = 1;                                         ///< of a full turn around the vertical
+  int tile = 2048;                                        ///< pixels along each side that are drawn at a time
 };
 
 /** Red, green, blue, a byte each; rows from the top. */

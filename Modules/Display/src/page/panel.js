@@ -9,9 +9,13 @@ if (Page && Page.view) (function () {
     $('coloring').add(new Option(names[name], name));
   }
   if (model.byLabel) $('coloring').value = 'Label';
-  state.coloring = $('coloring').value;
-  $('coloring').addEventListener('change', () => {
+  const takeColoring = () => {
     state.coloring = $('coloring').value;
+    $('range').value = view.chosenRange();
+  };
+  takeColoring();
+  $('coloring').addEventListener('change', () => {
+    takeColoring();
     for (const element of document.querySelectorAll('.ranged')) element.hidden = !view.ranged();
     view.paint();
   });

@@ -20,14 +20,15 @@ if (Page) Page.view = (function () {
   const target = new THREE.Vector3(), size = meshes.size, away = 10 * size;
   meshes.build(scene);
   const parts = meshes.parts;
-  const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Thickness ? 'Thickness' : 'Radius', range: 'middle', chosen: null,
+  const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Thickness ? 'Thickness' : 'Radius', range: null, chosen: null,
     opacity: { surface: 0.35, medial: 1, curves: 1 }, shown: { surface: true, medial: true, curves: true } };
 
   // ---- colours ----
+  const chosenRange = () => state.range || (model.ownRanges.includes(state.coloring) ? 'label' : 'middle'); // until one is chosen
   const rangeOf = label => {
     const range = model.ranges[state.coloring], own = label.ranges[state.coloring];
-    if (state.range === 'full') return [range.least, range.greatest];
-    if (state.range === 'label' && own) return [own.low, own.high];
+    if (chosenRange() === 'full') return [range.least, range.greatest];
+    if (chosenRange() === 'label' && own) return [own.low, own.high];
     return [range.low, range.high];
   };
   const ranged = () => state.coloring in model.ranges;
@@ -55,10 +56,10 @@ if (Page) Page.view = (function () {
     const name = state.coloring;
     if (!ranged()) return { name };
     const range = model.ranges[name], chosen = state.chosen && state.chosen.ranges[name];
-    const own = state.range === 'label' && !chosen;
+    const own = chosenRange() === 'label' && !chosen;
     const [low, high] = rangeOf(chosen ? state.chosen : { ranges: {} });
     const least = chosen ? chosen.least : range.least, greatest = chosen ? chosen.greatest : range.greatest;
-    const note = state.range === 'full' ? 'all values' : own ? 'each label, 2nd–98th percentile' : '2nd–98th percentile';
+    const note = chosenRange() === 'full' ? 'all values' : own ? 'each label, 2nd–98th percentile' : '2nd–98th percentile';
     return { name, low, high, note, own, below: !own && least < low, above: !own && greatest > high };
   }
 
@@ -306,5 +307,5 @@ if (Page) Page.view = (function () {
   }
 
   new ResizeObserver(resize).observe(stage);
-  return { state, parts, named, ranged, paint, showParts, fit, lookFrom, resize, draw, picture, hitAt, canvas };
+  return { state, parts, named, ranged, chosenRange, paint, showParts, fit, lookFrom, resize, draw, picture, hitAt, canvas };
 })();

@@ -25,7 +25,7 @@ struct RenderJobOptions
   std::string                          coloring = "Radius";
   std::optional<std::array<double, 2>> range;                ///< mm at the ends of the colour map; else these shares
   std::array<double, 2>                shares{ 0.02, 0.98 }; ///< of the area shown
-  bool                                 eachLabel = false;    ///< each label over its own range
+  std::optional<bool>                  eachLabel;            ///< each label over its own range; else where needed
   std::string                          background = "white";
   double                               tubes = 0.3;
   bool                                 panels = false;

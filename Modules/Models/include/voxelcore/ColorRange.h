@@ -65,6 +65,21 @@ CurveValues(const DisplayLabel & label, PictureColoring coloring);
 std::vector<WeightedValue>
 ShownValues(const DisplayLabel & label, PictureColoring coloring);
 
+/** Of one of several labels. */
+struct LabelRange
+{
+  ColorRange range;
+  double     weight = 0; ///< of all its values
+};
+
+LabelRange
+RangeOfLabel(const std::vector<WeightedValue> & values, const ColorShares & shares = {});
+
+/** Whether labels need a range each: labels that make half of the weight or more have a range less than a quarter as
+ *  wide as that of all together, in which they would show little of the map. */
+bool
+NeedOwnRanges(std::span<const LabelRange> labels, const ColorRange & all);
+
 /** The range of several labels together. */
 ColorRange
 RangeOfLabels(std::span<const DisplayLabel> labels, PictureColoring coloring, const ColorShares & shares = {});

@@ -28,8 +28,8 @@ SkeletonTable(const CoreReport & report);
 std::string
 TopologyText(const TopologyNumbers & topology);
 
-/** The labels of a report as .csv, a row for each and result: label, name, component, lambda, voxels, volume_mm3,
- *  vertices, edges, faces, area_mm2, max_radius_mm, b0, b1, b2. */
+/** The labels of a report as .csv, a row for each and result: label, name, component, lambda or tolerance, voxels,
+ *  volume_mm3, vertices, edges, faces, area_mm2, max_radius_mm, b0, b1, b2. */
 std::string
 LabelTableCsv(const CoreReport & report);
 
