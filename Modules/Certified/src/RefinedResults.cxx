@@ -29,6 +29,7 @@ RequireRefined(const RefinedCore & refined,
                const std::string & what)
 {
   RefinedNumbers moved;
+  moved.hairsRemoved = refined.hairsTaken;
   for (const Vector3 & d : refined.displacement)
   {
     const double length = std::hypot(d[0], d[1], d[2]);

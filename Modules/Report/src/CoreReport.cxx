@@ -115,6 +115,10 @@ LabelJson(const LabelRecord & label, bool inFile)
     {
       one["mean_displacement_vox"] = pruned.refined->meanDisplacement;
       one["max_displacement_vox"] = pruned.refined->maxDisplacement;
+      if (!inFile && pruned.tolerance)
+      {
+        one["hairs_removed"] = pruned.refined->hairsRemoved;
+      }
       if (!inFile && pruned.refined->radiusMargin)
       {
         // Files have it at each vertex.

@@ -180,7 +180,8 @@ ReadLabel(const Json & json)
     {
       pruned.refined = { one.at("mean_displacement_vox").get<double>(),
                          one.at("max_displacement_vox").get<double>(),
-                         {} };
+                         {},
+                         one.value("hairs_removed", std::size_t{ 0 }) };
     }
     label.pruned.push_back(std::move(pruned));
   }

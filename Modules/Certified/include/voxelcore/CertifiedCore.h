@@ -47,7 +47,8 @@ struct RefinedNumbers
 {
   double                       meanDisplacement = 0; ///< in voxels (length in lattice coordinates)
   double                       maxDisplacement = 0;
-  std::optional<MarginNumbers> radiusMargin{}; ///< of one refined from labels
+  std::optional<MarginNumbers> radiusMargin{};   ///< of one refined from labels
+  std::size_t                  hairsRemoved = 0; ///< by tolerance
 };
 
 /** How a core was pruned, and what is left. */
