@@ -2,10 +2,13 @@
 
 #include "PictureCamera.h"
 #include "PictureOverlay.h"
+#include "voxelcore/Vectors.h"
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <iostream>
 #include <numbers>
+#include <random>
 
 namespace voxelcore::testing
 {
@@ -18,6 +21,48 @@ ExpectNear(const Vector3 & a, const Vector3 & b)
   for (std::size_t k = 0; k < 3; ++k)
   {
     EXPECT_NEAR(a[k], b[k], 1e-12);
+  }
+}
+
+TEST(PictureOverlay, LettersOfDirectionsNeverOverprint)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937                     random(seed);
+  std::normal_distribution<double> normal;
+  for (int n = 0; n < 10000; ++n)
+  {
+    // Any two axes of a picture, at right angles.
+    std::array<Vector3, 2> axes;
+    for (Vector3 & axis : axes)
+    {
+      axis = { normal(random), normal(random), normal(random) };
+    }
+    axes[0] = AddScaled({ 0, 0, 0 }, 1 / Length(axes[0]), axes[0]);
+    axes[1] = AddScaled(axes[1], -Dot(axes[0], axes[1]), axes[0]);
+    axes[1] = AddScaled({ 0, 0, 0 }, 1 / Length(axes[1]), axes[1]);
+    const auto                         far = PictureOverlay::LetterDistances(axes[0], axes[1], 17, 10);
+    std::vector<std::array<double, 2>> letters;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double length = std::hypot(axes[0][axis], axes[1][axis]);
+      for (const double side : { -1, 1 })
+      {
+        if (far[axis] > 0)
+        {
+          letters.push_back({ side * far[axis] * axes[0][axis] / length, side * far[axis] * axes[1][axis] / length });
+        }
+      }
+      EXPECT_LT(far[axis], 17 + 7 + 30);
+    }
+    ASSERT_GE(letters.size(), 4U) << n;
+    for (std::size_t i = 0; i < letters.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        ASSERT_GE(std::hypot(letters[i][0] - letters[j][0], letters[i][1] - letters[j][1]), 10 - 1e-9) << n;
+      }
+    }
   }
 }
 

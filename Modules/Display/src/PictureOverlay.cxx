@@ -17,6 +17,7 @@
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxelcore
@@ -156,6 +157,43 @@ PictureOverlay::AddScaleBar(double mmPerPixel, SpatialUnit lengths, double most,
   AddText(ShortText(unit.Of(mm), 6) + " " + unit.Symbol(), x + length / 2, y + 0.9 * text, text, 0);
 }
 
+std::array<double, 3>
+PictureOverlay::LetterDistances(const std::array<double, 3> & right,
+                                const std::array<double, 3> & up,
+                                double                        arm,
+                                double                        text)
+{
+  constexpr double                   kShort = 0.45; // nearly along the view
+  std::array<double, 3>              distances{};
+  std::vector<std::array<double, 2>> placed; // one letter of each axis; the other one lies opposite
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double length = std::hypot(right[axis], up[axis]);
+    if (length < kShort)
+    {
+      continue;
+    }
+    double     distance = arm * length + 0.7 * text;
+    const auto place = [&] {
+      return std::array<double, 2>{ distance * right[axis] / length, distance * up[axis] / length };
+    };
+    const auto isFree = [&] {
+      return std::none_of(placed.begin(), placed.end(), [&](const auto & other) {
+        const auto here = place();
+        return std::min(std::hypot(here[0] - other[0], here[1] - other[1]),
+                        std::hypot(here[0] + other[0], here[1] + other[1])) < text;
+      });
+    };
+    while (!isFree()) // ends two letters beyond all others at the latest
+    {
+      distance += text / 8;
+    }
+    placed.push_back(place());
+    distances[axis] = distance;
+  }
+  return distances;
+}
+
 void
 PictureOverlay::AddDirections(const std::array<double, 3> & right,
                               const std::array<double, 3> & up,
@@ -166,18 +204,17 @@ PictureOverlay::AddDirections(const std::array<double, 3> & right,
 {
   constexpr std::array<const char *, 3> toward{ "L", "P", "S" };
   constexpr std::array<const char *, 3> from{ "R", "A", "I" };
-  constexpr double                      kShort = 0.45; // nearly along the view: its letters would lie on the centre
+  const std::array<double, 3>           distances = LetterDistances(right, up, arm, text);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const double dx = right[axis];
-    const double dy = up[axis];
-    const double length = std::hypot(dx, dy);
-    if (length < kShort)
+    if (distances[axis] == 0)
     {
       continue;
     }
+    const double dx = right[axis];
+    const double dy = up[axis];
     AddLine(x - arm * dx, y - arm * dy, x + arm * dx, y + arm * dy, text / 14);
-    const double away = arm + 0.7 * text / length;
+    const double away = distances[axis] / std::hypot(dx, dy);
     AddText(toward[axis], x + away * dx, y + away * dy, text, 0);
     AddText(from[axis], x - away * dx, y - away * dy, text, 0);
   }

@@ -46,6 +46,11 @@ public:
                 double                        arm,
                 double                        text);
 
+  /** Of each axis how far from the cross' centre its two letters lie, so that none overprints another; 0 where it has
+   *  none, as they would lie on the centre. */
+  static std::array<double, 3>
+  LetterDistances(const std::array<double, 3> & right, const std::array<double, 3> & up, double arm, double text);
+
   /** `align`: -1 the text begins at x, 0 is centred, 1 ends there; it is centred on y. */
   void
   AddText(const std::string & words, double x, double y, double size, int align);

@@ -91,14 +91,24 @@ if (Page) Page.overlay = (function () {
     const x = 58, y = scene.height - 112, arm = 26;
     const ends = [];
     scene.axes.forEach(([right, up, near], axis) => {
-      ends.push([right, up, near, model.anatomical ? 'LPS'[axis] : 'xyz'[axis]]);
-      ends.push([-right, -up, -near, model.anatomical ? 'RAI'[axis] : '']);
+      ends.push([right, up, near, model.anatomical ? 'LPS'[axis] : 'xyz'[axis], axis]);
+      ends.push([-right, -up, -near, model.anatomical ? 'RAI'[axis] : '', axis]);
+    });
+    const placed = []; // the letters of an axis lie as far from the centre as they must, so that none overprints another
+    const distances = scene.axes.map(([right, up]) => {
+      const long = Math.hypot(right, up);
+      if (long <= 0.3) return 0;
+      let far = arm * long + 9;
+      const place = () => [far * right / long, far * up / long];
+      while (placed.some(([a, b]) => Math.min(Math.hypot(place()[0] - a, place()[1] - b), Math.hypot(place()[0] + a, place()[1] + b)) < 13)) far += 2;
+      placed.push(place());
+      return far;
     });
     ends.sort((one, other) => one[2] - other[2]);
     pen.font = '600 ' + font(13);
     pen.textAlign = 'center';
     pen.textBaseline = 'middle';
-    for (const [right, up, near, letter] of ends) {
+    for (const [right, up, near, letter, axis] of ends) {
       pen.strokeStyle = pen.fillStyle = near > -0.15 ? ink : soft;
       pen.globalAlpha = near > -0.15 ? 1 : 0.65;
       pen.lineWidth = letter ? 1.6 : 0.8;
@@ -106,8 +116,8 @@ if (Page) Page.overlay = (function () {
       pen.moveTo(x, y);
       pen.lineTo(x + arm * right, y - arm * up);
       pen.stroke();
-      const long = Math.hypot(right, up);
-      if (long > 0.3) pen.fillText(letter, x + (arm + 9 / long) * right, y - (arm + 9 / long) * up);
+      const away = distances[axis] / Math.hypot(right, up);
+      if (distances[axis] > 0) pen.fillText(letter, x + away * right, y - away * up);
     }
     pen.globalAlpha = 1;
   }
