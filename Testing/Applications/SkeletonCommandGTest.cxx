@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 namespace voxelcore::testing
@@ -228,6 +230,117 @@ TEST_F(SkeletonCommand, CavitiesAreFilledUnlessTheyAreKept)
   // A number is for --simplify-topology.
   EXPECT_EQ(RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "x.vtp", "--cavities", "1" }).code, 2);
   EXPECT_EQ(RunProgram({ "skeleton", m_Folder / "scan.nrrd", "-o", m_Folder / "x.vtp", "--cavities", "some" }).code, 2);
+}
+
+TEST_F(SkeletonCommand, WritesSectionsLesionsVolumesCenterlinesAndPipesOfOneRun)
+{
+  // A tube with a waist, and a second label beside it.
+  TestScan scan({ 70, 24, 24 });
+  for (std::size_t x = 2; x < 68; ++x)
+  {
+    const double radius = 6 * (1 - 0.6 * std::exp(-0.5 * std::pow((static_cast<double>(x) - 35) / 5, 2)));
+    for (std::size_t z = 0; z < 15; ++z)
+    {
+      for (std::size_t y = 0; y < 15; ++y)
+      {
+        if (std::hypot(static_cast<double>(y) - 7.3, static_cast<double>(z) - 7.2) <= radius)
+        {
+          scan.At(x, y, z) = 1;
+        }
+      }
+    }
+  }
+  scan.Fill({ 2, 18, 18 }, { 60, 20, 20 }, 2);
+  const auto        file = [&](const char * name) { return (m_Folder / name).string(); };
+  const std::vector options{
+    std::string("--sections"),    std::string("all"),   std::string("--branch-map"),   file("branches.nrrd"),
+    std::string("--order-map"),   file("orders.nrrd"),  std::string("--skeleton-map"), file("lines.nrrd"),
+    std::string("--centerlines"), file("lines.vtp"),    std::string("--flow"),         file("pipes.csv"),
+    std::string("--inlet"),       std::string("70,7,7")
+  };
+  const Json   report = ReportOf(scan, options);
+  const Json & lesions = report.at("labels").at(0).at("skeleton").at("lesions");
+  ASSERT_EQ(lesions.size(), 1U);
+  EXPECT_EQ(lesions[0].at("kind"), "stenosis");
+  EXPECT_NEAR(lesions[0].at("degree_by_diameter_percent").get<double>(), 60, 4);
+  EXPECT_NEAR(lesions[0].at("place_mm").at(0).get<double>(), 30, 1.5); // the first voxel is at -5
+  EXPECT_TRUE(report.at("labels").at(1).at("skeleton").at("lesions").empty());
+  EXPECT_NE(ReadAll(file("s_lesions.csv")).find("stenosis"), std::string::npos);
+  // Each voxel of a label has a branch, which is the row of the only one; background has none.
+  const auto counts = [&](const char * name) {
+    const ProgramResult info = RunProgram({ "info", file(name), "--json" });
+    EXPECT_EQ(info.code, 0) << info.error;
+    std::map<int, std::int64_t> voxels;
+    const Json                  seen = Json::parse(info.output);
+    for (const Json & label : seen.at("labels"))
+    {
+      voxels[label.at("label")] = label.at("voxels");
+    }
+    return voxels;
+  };
+  const std::int64_t first = std::count(scan.voxels.begin(), scan.voxels.end(), 1);
+  EXPECT_EQ(counts("branches.nrrd"), (std::map<int, std::int64_t>{ { 1, first }, { 2, 59 * 9 } }));
+  EXPECT_EQ(counts("orders.nrrd"), (std::map<int, std::int64_t>{ { 1, first + 59 * 9 } }));
+  auto lines = counts("lines.nrrd");
+  EXPECT_NEAR(static_cast<double>(lines.at(1)), 65, 3);
+  EXPECT_NEAR(static_cast<double>(lines.at(2)), 58, 3);
+  // Both tubes are one tract and one pipe, the first from the inlet that was given.
+  const std::string pipes = ReadAll(file("pipes.csv"));
+  EXPECT_EQ(std::count(pipes.begin(), pipes.end(), '\n'), 3);
+  const std::string nodes = ReadAll(file("pipes_nodes.csv"));
+  const std::size_t at = nodes.find("inlet,");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::stod(nodes.substr(at + 6)), 60);
+  EXPECT_TRUE(Json::parse(ReadAll(file("pipes_columns.json"))).contains("nodes"));
+  const std::string centerlines = ReadAll(file("lines.vtp"));
+  for (const char * name : { "CenterlineIds", "TractIds", "GroupIds", "Blanking", "MaximumInscribedSphereRadius" })
+  {
+    EXPECT_NE(centerlines.find(name), std::string::npos) << name;
+  }
+  // The finished skeleton gives the same pipes and lines.
+  ASSERT_EQ(RunProgram({ "measure",
+                         file("s.vtp"),
+                         "-o",
+                         file("m.csv"),
+                         "--flow",
+                         file("again.csv"),
+                         "--centerlines",
+                         file("again.vtp"),
+                         "--inlet",
+                         "70,7,7" })
+              .code,
+            0);
+  EXPECT_EQ(ReadAll(file("again.csv")), pipes);
+  EXPECT_EQ(ReadAll(file("again.vtp")), centerlines);
+  ASSERT_EQ(RunProgram({ "measure", file("s.vtp"), "-o", file("n.csv"), "--flow", file("pipes.json") }).code, 0);
+  EXPECT_EQ(Json::parse(ReadAll(file("pipes.json"))).at("vessels").size(), 2U);
+}
+
+TEST_F(SkeletonCommand, RefusesVolumesAndPipesThatCannotBeWritten)
+{
+  TestScan scan({ 20, 6, 6 });
+  scan.Fill({ 2, 2, 2 }, { 17, 4, 4 }, 1);
+  WriteNrrd(m_Folder / "scan.nrrd", scan);
+  const auto refused = [&](const std::vector<std::string> & more) {
+    std::vector<std::string> arguments{ "skeleton", m_Folder / "scan.nrrd" };
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = RunProgram(arguments);
+    EXPECT_EQ(result.code, 2) << result.error;
+    return result.error;
+  };
+  const std::string to = m_Folder / "s.vtp";
+  EXPECT_NE(refused({ "-o", (m_Folder / "d").string() + "/", "--flow", m_Folder / "f.csv" }).find("one file"),
+            std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--flow", m_Folder / "f.vtp" }).find(".csv"), std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--centerlines", m_Folder / "f.csv" }).find(".vtp"), std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--branch-map", m_Folder / "f.vtp" }).find("f.vtp"), std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--inlet", "1,2,3" }).find("--flow"), std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--flow", m_Folder / "f.csv", "--inlet", "1,2" }).find("X,Y,Z"), std::string::npos);
+  ASSERT_EQ(RunProgram({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "c.vtp" }).code, 0);
+  const ProgramResult fromCore =
+    RunProgram({ "skeleton", m_Folder / "c.vtp", "-o", to, "--skeleton-map", m_Folder / "m.nrrd" });
+  EXPECT_EQ(fromCore.code, 2);
+  EXPECT_NE(fromCore.error.find("--skeleton-map: needs a scan"), std::string::npos) << fromCore.error;
 }
 
 TEST_F(SkeletonCommand, ABodyThatTheBorderCutsRunsUpToIt)

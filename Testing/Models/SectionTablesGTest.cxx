@@ -62,6 +62,19 @@ Lines(const std::filesystem::path & path)
   return lines;
 }
 
+std::size_t
+CountColumns(const std::string & head, const nlohmann::json & columns)
+{
+  std::stringstream line(head);
+  std::size_t       count = 0;
+  for (std::string column; std::getline(line, column, ',');)
+  {
+    EXPECT_TRUE(columns.contains(column)) << column;
+    ++count;
+  }
+  return count;
+}
+
 } // namespace
 
 TEST(SectionTables, HaveARowPerSectionAndSayWhatIsNotKnownByNothing)
@@ -74,16 +87,43 @@ TEST(SectionTables, HaveARowPerSectionAndSayWhatIsNotKnownByNothing)
   EXPECT_EQ(lines[1],
             "7,\"'=aorta, left\",2,0,1.5,10,20,30,0,0,1,4,2.256758,2,1,0,0,2.5,0,1,0,8,0.7853982,10,20,30,3,1");
   EXPECT_EQ(lines[2], "7,\"'=aorta, left\",2,0,0,0,0,0,0,1,0,,,,,,,,,,,,,0,0,0,,0");
-  const auto        columns = nlohmann::json::parse(SectionColumnsJson(SpatialUnit::Millimetres)).at("sections");
-  std::stringstream head(lines[0]);
-  std::size_t       count = 0;
-  for (std::string column; std::getline(head, column, ',');)
-  {
-    EXPECT_TRUE(columns.contains(column)) << column;
-    ++count;
-  }
-  EXPECT_EQ(columns.size(), count);
+  const auto columns = nlohmann::json::parse(SectionColumnsJson(SpatialUnit::Millimetres)).at("sections");
+  EXPECT_EQ(columns.size(), CountColumns(lines[0], columns));
   EXPECT_EQ(columns.at("area").at("Units"), "mm^2");
+}
+
+TEST(SectionTables, LesionsHaveTheNumbersOfTheirKind)
+{
+  auto         parts = SquareAndNothing();
+  VesselLesion stenosis;
+  stenosis.arc = 12;
+  stenosis.begin = 10;
+  stenosis.end = 15.5;
+  stenosis.place = { 1, 2, 3 };
+  stenosis.diameter = 1;
+  stenosis.reference = 4;
+  VesselLesion bulge = stenosis;
+  bulge.kind = LesionKind::Bulge;
+  bulge.diameter = 6;
+  VesselLesion dome;
+  dome.kind = LesionKind::Dome;
+  dome.diameter = 9;
+  dome.reference = 4;
+  dome.neckWidth = 5;
+  dome.height = 8;
+  dome.volume = 300;
+  parts[0].lesions = { stenosis, bulge, dome };
+  const TemporaryFolder folder;
+  const auto            path = folder / "lesions.csv";
+  WriteLesionCsv(path, parts);
+  const auto        lines = Lines(path);
+  const std::string start = "7,\"'=aorta, left\",2,0,";
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[1], start + "stenosis,12,1,2,3,5.5,1,4,75,93.75,,,,");
+  EXPECT_EQ(lines[2], start + "bulge,12,1,2,3,5.5,6,4,50,125,,,,");
+  EXPECT_EQ(lines[3], start + "dome,0,0,0,0,0,9,4,,,5,8,300,1.6");
+  const auto columns = nlohmann::json::parse(SectionColumnsJson(SpatialUnit::Millimetres)).at("lesions");
+  EXPECT_EQ(columns.size(), CountColumns(lines[0], columns));
 }
 
 TEST(SectionTables, ContoursAreClosedLinesThatCarryTheirNumbers)

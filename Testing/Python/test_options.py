@@ -34,6 +34,8 @@ WITHOUT = {
     "with-skeleton": "Core.skeleton()",
     "quiet": "nothing is printed",
     "sections": "tables and contours that the program writes beside its skeleton",
+    **dict.fromkeys(("branch-map", "order-map", "skeleton-map", "centerlines", "flow", "inlet"),
+                    "files that the program writes beside its skeleton"),
     **dict.fromkeys(("separation", "within"), "measure the background as an array of its own"),
 }
 FUNCTIONS = {
@@ -47,6 +49,7 @@ FUNCTIONS = {
     "verify": (voxelcore.verify,),
 }  # fmt: skip
 TABLE = [row for row in _voxelcore.option_table() if row["command"] in FUNCTIONS]
+PROGRAM = ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet")
 SAVING = ("overwrite", "triangles", "keep_edges", "also")
 
 
@@ -77,7 +80,7 @@ def test_a_value_without_sense_is_refused_by_every_option(command):
         keyword = row["keyword"]
         ofSkeletons = command == "core" and row["group"] == "Skeleton"
         if row["command"] == command and keyword.isidentifier() and not ofSkeletons:
-            if keyword not in (*SAVING, "progress", "sections", "separation", "within"):
+            if keyword not in (*SAVING, "progress", "separation", "within", *PROGRAM):
                 with pytest.raises((ValueError, TypeError)) as refusal:
                     function(source, **{keyword: "never"})
                 assert "unexpected keyword" not in str(refusal.value), keyword

@@ -20,17 +20,6 @@ struct EllipticTube
   double                 length = 0;
 };
 
-ImageGeometry
-GridOf(const VoxelShape & shape, const Vector3 & spacing)
-{
-  ImageGeometry geometry;
-  geometry.spacing = spacing;
-  geometry.size = { shape.Box().size[0] + shape.Box().lower[0],
-                    shape.Box().size[1] + shape.Box().lower[1],
-                    shape.Box().size[2] + shape.Box().lower[2] };
-  return geometry;
-}
-
 MeasuredBody
 BodyOf(const EllipticTube & tube, const Vector3 & spacing, const Vector3 & shift)
 {

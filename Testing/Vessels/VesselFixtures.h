@@ -29,6 +29,18 @@ struct MeasuredBody
   }
 };
 
+/** The grid whose first voxel is at the origin, up to the end of the shape's box. */
+inline ImageGeometry
+GridOf(const VoxelShape & shape, const Vector3 & spacing)
+{
+  ImageGeometry geometry;
+  geometry.spacing = spacing;
+  geometry.size = { shape.Box().size[0] + shape.Box().lower[0],
+                    shape.Box().size[1] + shape.Box().lower[1],
+                    shape.Box().size[2] + shape.Box().lower[2] };
+  return geometry;
+}
+
 /** What the program makes of a body by default. */
 inline MeasuredBody
 MeasureBody(VoxelShape shape, const ImageGeometry & geometry)

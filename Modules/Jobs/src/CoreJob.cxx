@@ -195,7 +195,7 @@ StageCoreJob(const CoreOptions & options,
   }
 
   std::optional<SkeletonBodies> bodies;
-  if (options.skeleton && options.skeletonTargets.NeedsBodies())
+  if (options.skeleton && !options.skeletonTargets.NeedsBodies().empty())
   {
     bodies.emplace(options.skeletonOutput, options.skeletonTargets, transaction);
   }
@@ -207,6 +207,10 @@ StageCoreJob(const CoreOptions & options,
   InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
+  if (skeletons)
+  {
+    skeletons->RequireUnit(volume.geometry.unit);
+  }
   std::optional<NetworkLabels> network;
   if (options.skeleton && options.skeleton->network)
   {
@@ -318,7 +322,7 @@ StageCoreJob(const CoreOptions & options,
       }
       if (bodies)
       {
-        bodies->Add(*outcome.skeleton);
+        bodies->Add(*outcome.skeleton, *outcome.record.skeleton);
       }
       // A core that is only a step on the way to a skeleton is not shown.
       const ModelPart nothing;

@@ -1,6 +1,10 @@
 #include "SkeletonBodies.h"
 
-#include "voxelcore/Error.h"
+#include "ThicknessSteps.h"
+
+#include "voxelcore/BranchVoxels.h"
+#include "voxelcore/GreyVolume.h"
+#include "voxelcore/LabelVolume.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/OutputFile.h"
 #include "voxelcore/OutputNames.h"
@@ -20,6 +24,29 @@ WithEnding(const fs::path & stem, const char * ending)
   return stem.string() + ending;
 }
 
+/** Of two shapes in the same box, word by word. */
+template <typename Operation>
+void
+Combine(VoxelShape & own, const VoxelShape & other, const Operation & operation)
+{
+  const auto & size = own.Box().size;
+  for (std::int32_t z = 0; z < size[2]; ++z)
+  {
+    for (std::int32_t y = 0; y < size[1]; ++y)
+    {
+      auto       to = own.Row(y, z);
+      const auto from = other.Row(y, z);
+      for (std::size_t word = 0; word < from.size(); ++word)
+      {
+        if (from[word] != 0)
+        {
+          to[word] = operation(to[word], from[word]);
+        }
+      }
+    }
+  }
+}
+
 } // namespace
 
 SkeletonBodies::SkeletonBodies(const fs::path &        output,
@@ -29,11 +56,19 @@ SkeletonBodies::SkeletonBodies(const fs::path &        output,
   , m_Targets(targets)
   , m_Transaction(transaction)
 {
-  if (IsFolderOutput(output))
+  for (const auto & map : { m_Targets.branchMap, m_Targets.orderMap, m_Targets.skeletonMap })
   {
-    throw UsageError("--sections: all labels go into one table; give -o OUT.vtp or OUT.csv instead of a folder");
+    if (map)
+    {
+      RequireVolumePath(*map);
+      m_Transaction.CheckTarget(*map);
+    }
   }
-  for (const char * ending : { "_sections.csv", "_sections.vtp", "_sections.json" })
+  if (!m_Targets.sections)
+  {
+    return;
+  }
+  for (const char * ending : { "_sections.csv", "_sections.vtp", "_sections.json", "_lesions.csv" })
   {
     m_Transaction.CheckTarget(WithEnding(m_Stem, ending));
   }
@@ -46,11 +81,14 @@ SkeletonBodies::Keep(const std::vector<EditedLabel> & labels,
                      const std::optional<VoxelBox> &  scan,
                      const SurfaceSource &            estimates)
 {
-  RequireLengthIn(geometry.unit, *m_Targets.sections);
+  if (m_Targets.sections)
+  {
+    RequireLengthIn(geometry.unit, *m_Targets.sections);
+  }
   m_Geometry = geometry;
   m_Scan = scan;
   m_Request = *options.skeleton;
-  if (!options.refine.surface.empty() && options.refine.surface != "labels")
+  if (m_Targets.sections && !options.refine.surface.empty() && options.refine.surface != "labels")
   {
     m_Surfaces = estimates;
   }
@@ -61,14 +99,26 @@ SkeletonBodies::Keep(const std::vector<EditedLabel> & labels,
 }
 
 void
-SkeletonBodies::Add(const SkeletonPart & part)
+SkeletonBodies::Add(const SkeletonPart & part, SkeletonRecord & record)
 {
-  const auto       found = m_Shapes.find({ part.label, part.component });
-  const VoxelBox   box = found->second.Box();
-  const VoxelShape shape = m_Scan && m_Request.border != BorderEnds::Closed
-                             ? UpToBorder(found->second, m_Geometry, *m_Scan, m_Request).shape
-                             : std::move(found->second);
+  const auto found = m_Shapes.find({ part.label, part.component });
+  VoxelShape shape = std::move(found->second);
   m_Shapes.erase(found);
+  AddMaps(part, shape);
+  if (m_Targets.sections)
+  {
+    AddSections(part, std::move(shape), record);
+  }
+}
+
+void
+SkeletonBodies::AddSections(const SkeletonPart & part, VoxelShape shape, SkeletonRecord & record)
+{
+  const VoxelBox box = shape.Box();
+  if (m_Scan && m_Request.border != BorderEnds::Closed)
+  {
+    shape = UpToBorder(shape, m_Geometry, *m_Scan, m_Request).shape;
+  }
   SurfaceSource::Estimate surface;
   if (m_Surfaces)
   {
@@ -81,14 +131,111 @@ SkeletonBodies::Add(const SkeletonPart & part)
     every = LambdaInMillimetres(*m_Targets.sections, ComputeSpacingWeights(spacing), spacing, box);
   }
   const SectionBody body{ &shape, surface.get(), m_Geometry, m_Scan };
-  m_Sections.push_back(NameSections(part, MeasureSections(part.graph, body, every)));
+  auto              sections = MeasureSections(part.graph, body, every);
+  auto              lesions = FindLesions(part.graph, sections, body);
+  record.lesions = lesions;
+  m_Sections.push_back(NameSections(part, std::move(sections), std::move(lesions)));
+}
+
+void
+SkeletonBodies::AddMaps(const SkeletonPart & part, const VoxelShape & shape)
+{
+  if (m_Targets.branchMap || m_Targets.orderMap)
+  {
+    Mapped & mapped = m_Mapped.emplace_back();
+    mapped.branches = BranchOfVoxels(part.graph, shape, m_Geometry);
+    mapped.shape = shape;
+    mapped.firstRow = m_Rows;
+    for (std::uint32_t & value : mapped.branches.values)
+    {
+      value = value > 0 ? m_Rows + value : 0;
+    }
+    for (const BranchRecord & branch : part.table.branches)
+    {
+      mapped.orders.push_back(static_cast<std::uint32_t>(branch.strahler));
+    }
+    m_Rows += static_cast<std::uint32_t>(part.table.branches.size());
+  }
+  if (!m_Targets.skeletonMap)
+  {
+    return;
+  }
+  VoxelBox whole;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    whole.size[k] = static_cast<std::int32_t>(m_Geometry.size[k]);
+  }
+  for (const SkeletonPart & one : part.network ? PartsByLabel(part) : std::vector{ part })
+  {
+    VoxelShape lines(whole);
+    AddSkeletonVoxels(one.graph, shape, m_Geometry, lines);
+    // Labels may overlap: then the first has the voxel.
+    for (const auto & [label, others] : m_Lines)
+    {
+      if (label != one.label)
+      {
+        Combine(lines, others, [](std::uint64_t own, std::uint64_t other) { return own & ~other; });
+      }
+    }
+    Combine(m_Lines.try_emplace(one.label, whole).first->second, lines, [](std::uint64_t own, std::uint64_t other) {
+      return own | other;
+    });
+  }
+}
+
+void
+SkeletonBodies::WriteMaps()
+{
+  VolumeOfLabels<std::uint32_t> volume;
+  for (const Mapped & mapped : m_Mapped)
+  {
+    volume.shapes.push_back(&mapped.shape);
+    volume.values.push_back(&mapped.branches);
+  }
+  const auto write = [&](const fs::path & path) {
+    WriteNumberVolume(m_Transaction.StageWithCompanions(path),
+                      m_Geometry,
+                      [&](std::int64_t k, std::span<std::uint32_t> slice) { FillSlice(volume, m_Geometry, k, slice); });
+  };
+  if (m_Targets.branchMap)
+  {
+    write(*m_Targets.branchMap);
+  }
+  if (m_Targets.orderMap)
+  {
+    for (Mapped & mapped : m_Mapped)
+    {
+      for (std::uint32_t & value : mapped.branches.values)
+      {
+        value = value > 0 ? mapped.orders[value - mapped.firstRow - 1] : 0;
+      }
+    }
+    write(*m_Targets.orderMap);
+  }
+  if (m_Targets.skeletonMap)
+  {
+    std::vector<LabelShape> labels;
+    for (auto & [value, shape] : m_Lines)
+    {
+      labels.emplace_back();
+      labels.back().value = value;
+      labels.back().shape = std::move(shape);
+    }
+    WriteLabelVolume(m_Transaction.StageWithCompanions(*m_Targets.skeletonMap), m_Geometry, labels);
+  }
 }
 
 void
 SkeletonBodies::Finish()
 {
+  WriteMaps();
+  if (!m_Targets.sections)
+  {
+    return;
+  }
   WriteSectionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_sections.csv")), m_Sections);
   WriteSectionVtp(m_Transaction.Stage(WithEnding(m_Stem, "_sections.vtp")), m_Sections, m_Geometry.unit);
+  WriteLesionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_lesions.csv")), m_Sections);
   WriteTextFile(m_Transaction.Stage(WithEnding(m_Stem, "_sections.json")), SectionColumnsJson(m_Geometry.unit));
 }
 

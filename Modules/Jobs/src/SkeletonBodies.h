@@ -4,6 +4,7 @@
 #include "voxelcore/CoreJob.h"
 #include "voxelcore/OutputTransaction.h"
 #include "voxelcore/SectionTables.h"
+#include "voxelcore/VoxelField.h"
 
 #include <filesystem>
 #include <map>
@@ -14,12 +15,12 @@
 namespace voxelcore
 {
 
-/** Keeps the bodies until their skeletons come. Writes OUT_sections.csv, OUT_sections.vtp and OUT_sections.json, which
- *  explains the columns. */
+/** Keeps the bodies until their skeletons come. Of sections writes OUT_sections.csv, OUT_sections.vtp, OUT_lesions.csv
+ *  and OUT_sections.json, which explains the columns; and the volumes that are asked for. */
 class SkeletonBodies
 {
 public:
-  /** Checks that all files can be written. \throws UsageError for an output folder; OutputError */
+  /** Checks that all files can be written. \throws UsageError where a volume's extension is unknown; OutputError */
   SkeletonBodies(const std::filesystem::path & output,
                  const SkeletonTargets &       targets,
                  OutputTransaction &           transaction);
@@ -34,14 +35,30 @@ public:
        const std::optional<VoxelBox> &  scan,
        const SurfaceSource &            estimates);
 
-  /** Takes the finished skeleton of a label. */
+  /** Takes the finished skeleton of a label, and tells its record of lesions. */
   void
-  Add(const SkeletonPart & part);
+  Add(const SkeletonPart & part, SkeletonRecord & record);
 
   void
   Finish();
 
 private:
+  /** A body of which volumes are made. */
+  struct Mapped
+  {
+    VoxelShape                 shape;
+    VoxelField<std::uint32_t>  branches; ///< rows of the table of branches
+    std::uint32_t              firstRow = 0;
+    std::vector<std::uint32_t> orders; ///< of the branches
+  };
+
+  void
+  AddSections(const SkeletonPart & part, VoxelShape shape, SkeletonRecord & record);
+  void
+  AddMaps(const SkeletonPart & part, const VoxelShape & shape);
+  void
+  WriteMaps();
+
   std::filesystem::path m_Stem;
   SkeletonTargets       m_Targets;
   OutputTransaction &   m_Transaction;
@@ -52,6 +69,10 @@ private:
   SurfaceSource                                               m_Surfaces; ///< none: the voxels tell
   SkeletonRequest                                             m_Request;
   std::vector<SectionsOfPart>                                 m_Sections;
+
+  std::vector<Mapped>                m_Mapped;
+  std::uint32_t                      m_Rows = 0; ///< branches so far
+  std::map<std::int64_t, VoxelShape> m_Lines;    ///< by label, each in a box of the scan's size
 };
 
 } // namespace voxelcore

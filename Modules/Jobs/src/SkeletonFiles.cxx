@@ -2,6 +2,7 @@
 
 #include "JobTools.h"
 #include "voxelcore/Error.h"
+#include "voxelcore/FlowFiles.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
 
@@ -75,7 +76,23 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
   {
     throw UsageError(m_Output.string() + ": a network is one file; give .vtp, or .csv for tables alone");
   }
+  if (const std::string option(m_Targets.NeedsOneFile()); m_ToFolder && !option.empty())
+  {
+    throw UsageError(option + ": all labels go into one file; give -o OUT.vtp or OUT.csv instead of a folder");
+  }
+  if (m_Targets.centerlines && m_Targets.centerlines->extension() != ".vtp")
+  {
+    throw UsageError("--centerlines " + m_Targets.centerlines->string() + ": give a .vtp file");
+  }
+  if (m_Targets.flow && !IsFlowJson() && m_Targets.flow->extension() != ".csv")
+  {
+    throw UsageError("--flow " + m_Targets.flow->string() + ": give a .csv file, or a .json file for svZeroDSolver");
+  }
   m_Transaction.Protect(m_Input);
+  for (const fs::path & target : FlowTargets())
+  {
+    m_Transaction.CheckTarget(target);
+  }
   if (m_Targets.table)
   {
     m_Transaction.CheckTarget(*m_Targets.table);
@@ -95,6 +112,88 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
     for (std::size_t i = ending == "csv" && m_Targets.table ? 1 : 0; i < targets.size(); ++i)
     {
       m_Transaction.CheckTarget(targets[i]);
+    }
+  }
+}
+
+bool
+SkeletonFiles::IsFlowJson() const
+{
+  return m_Targets.flow->extension() == ".json";
+}
+
+std::vector<fs::path>
+SkeletonFiles::FlowTargets() const
+{
+  std::vector<fs::path> targets;
+  if (m_Targets.centerlines)
+  {
+    targets.push_back(*m_Targets.centerlines);
+  }
+  if (m_Targets.flow)
+  {
+    targets.push_back(*m_Targets.flow);
+    const std::string stem = (m_Targets.flow->parent_path() / m_Targets.flow->stem()).string();
+    if (!IsFlowJson())
+    {
+      targets.emplace_back(stem + "_nodes.csv");
+      targets.emplace_back(stem + "_columns.json");
+    }
+  }
+  return targets;
+}
+
+void
+SkeletonFiles::RequireUnit(SpatialUnit unit) const
+{
+  if (unit != SpatialUnit::Millimetres && m_Targets.flow && IsFlowJson())
+  {
+    throw InputError(m_Input.string() + ": gives no voxel size, and --flow " + m_Targets.flow->string() +
+                     " is in centimetres; give --spacing, or a .csv file");
+  }
+}
+
+void
+SkeletonFiles::WriteFlow(const CoreReport & report)
+{
+  if (!m_Targets.centerlines && !m_Targets.flow)
+  {
+    return;
+  }
+  InletChoice choice{ m_Targets.inlets, report.input.geometry };
+  if (report.skeleton && report.skeleton->border != BorderEnds::Closed)
+  {
+    const auto & crop = report.parameters.reading.crop;
+    choice.border.emplace();
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::int64_t first = crop ? crop->first[k] : 0;
+      const std::int64_t end = crop ? std::int64_t{ crop->end[k] } : report.input.geometry.size[k];
+      choice.border->lower[k] = static_cast<std::int32_t>(first);
+      choice.border->size[k] = static_cast<std::int32_t>(end - first);
+    }
+  }
+  const auto inlets = FindInlets(m_Model.parts, choice);
+  const auto targets = FlowTargets();
+  if (m_Targets.centerlines)
+  {
+    WriteCenterlineVtp(m_Transaction.Stage(targets[0]), SplitCenterlines(m_Model.parts, inlets), m_Model.unit);
+  }
+  if (m_Targets.flow)
+  {
+    const FlowNetwork network = MakeFlowNetwork(m_Model.parts, inlets);
+    if (IsFlowJson())
+    {
+      WriteFlowJson(m_Transaction.Stage(targets.back()), network, m_Model.parts);
+    }
+    else
+    {
+      const std::size_t nodes = targets.size() - 2;
+      WriteFlowCsv(m_Transaction.Stage(targets[nodes - 1]),
+                   m_Transaction.Stage(targets[nodes]),
+                   network,
+                   m_Model.parts);
+      WriteTextFile(m_Transaction.Stage(targets.back()), FlowColumnsJson(m_Model.unit));
     }
   }
 }
@@ -258,6 +357,7 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
       WriteTextFile(m_Transaction.Stage(targets[1]), RadiiText(m_Surfaces));
     }
   }
+  WriteFlow(report);
   m_Model = SkeletonModel();
   m_Surfaces = MedialModel();
   m_Labels.clear();

@@ -55,9 +55,9 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
     throw UsageError("--network: needs a scan, but " + options.input.string() +
                      " is a medial surface; give the scan to 'voxelcore skeleton'");
   }
-  if (options.targets.NeedsBodies())
+  if (const std::string option(options.targets.NeedsBodies()); !option.empty())
   {
-    throw UsageError("--sections: needs a scan, but " + options.input.string() +
+    throw UsageError(option + ": needs a scan, but " + options.input.string() +
                      " is a medial surface, which does not hold the body; give the scan to 'voxelcore skeleton'");
   }
   const JobContext  context = ForwardOnly(given);
@@ -95,6 +95,7 @@ FromCore(const SkeletonOptions & options, const JobContext & given)
   CertifiedRequest request;
   request.skeleton = report.skeleton;
   RequireLengthsOf(options.input, report.input.geometry.unit, request);
+  files.RequireUnit(report.input.geometry.unit);
   report.seconds.read = watch.Lap();
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {
@@ -217,6 +218,7 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   SkeletonTargets targets = options.targets;
   targets.network = report.skeleton && report.skeleton->network;
   SkeletonFiles files(options.output, options.skeleton, targets, transaction);
+  files.RequireUnit(report.input.geometry.unit);
   MeasureAgain(model.parts, options.branches, report, options.skeleton);
   for (std::size_t i = 0; i < model.parts.size(); ++i)
   {

@@ -44,6 +44,30 @@ constexpr auto kSectionColumns = std::to_array<Column>({
   { "cut_by_border", "", "1 when the section reaches the border of the scan" },
 });
 
+constexpr auto kLesionColumns = std::to_array<Column>({
+  { "label", "", "value of the label" },
+  { "name", "", "name of the label" },
+  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  { "branch_id", "", "number of the branch, the cell array BranchId; of a dome: the one that leads into it" },
+  { "kind", "", "stenosis, bulge (ectasia or fusiform aneurysm), or dome (saccular aneurysm)" },
+  { "arc_length", "mm", "along the branch, of the least or greatest diameter; of a dome, of its neck" },
+  { "place_x", "mm", "on the branch there, LPS" },
+  { "place_y", "mm", "" },
+  { "place_z", "mm", "" },
+  { "length", "mm", "of the part of the branch that is narrower or wider by a tenth; of a dome, from its neck" },
+  { "diameter", "mm", "least of a stenosis, greatest of others; of the circle with the area of the section" },
+  { "reference_diameter",
+    "mm",
+    "of the healthy vessel there: a line that at least half of the branch is near to; of a dome, of the vessel at its "
+    "foot" },
+  { "degree_by_diameter", "%", "by how much less or more than the reference: of a stenosis as in NASCET" },
+  { "degree_by_area", "%", "the same of areas" },
+  { "neck_width", "mm", "of a dome: diameter of its least section between the vessel and its greatest ball" },
+  { "dome_height", "mm", "from the plane of the neck to the farthest point, at right angles" },
+  { "dome_volume", "mm^3", "of the voxels that hang together beyond the plane of the neck" },
+  { "aspect_ratio", "1", "dome_height / neck_width" },
+});
+
 using Add = void (*)(std::vector<double> &, const BranchSection &);
 
 /** What a contour carries on. */
@@ -61,10 +85,11 @@ constexpr auto kCellNumbers = std::to_array<std::pair<const char *, Add>>({
 } // namespace
 
 SectionsOfPart
-NameSections(const SkeletonPart & part, std::vector<BranchSection> sections)
+NameSections(const SkeletonPart & part, std::vector<BranchSection> sections, std::vector<VesselLesion> lesions)
 {
   SectionsOfPart named;
   named.sections = std::move(sections);
+  named.lesions = std::move(lesions);
   named.component = part.component;
   for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
   {
@@ -166,10 +191,49 @@ WriteSectionVtp(const std::filesystem::path & path, const std::vector<SectionsOf
   WriteVtp(path, content);
 }
 
+const char *
+LesionText(LesionKind kind)
+{
+  return kind == LesionKind::Stenosis ? "stenosis" : kind == LesionKind::Bulge ? "bulge" : "dome";
+}
+
+void
+WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts)
+{
+  TextFile file(path, tableDigits);
+  WriteHead(file, kLesionColumns);
+  for (const SectionsOfPart & part : parts)
+  {
+    for (const VesselLesion & one : part.lesions)
+    {
+      file << part.labels[one.branch] << "," << CsvField(part.names[one.branch]) << "," << part.component << ","
+           << one.branch << "," << LesionText(one.kind) << "," << one.arc;
+      for (const double number : { one.place[0],
+                                   one.place[1],
+                                   one.place[2],
+                                   one.end - one.begin,
+                                   one.diameter,
+                                   one.reference,
+                                   100 * one.DegreeByDiameter(),
+                                   100 * one.DegreeByArea(),
+                                   one.neckWidth,
+                                   one.height,
+                                   one.volume,
+                                   one.AspectRatio() })
+      {
+        file << "," << number;
+      }
+      file << "\n";
+    }
+  }
+  file.Finish();
+}
+
 std::string
 SectionColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"sections\": " + ColumnsJson(kSectionColumns, unit) + "\n}\n";
+  return "{\n  \"sections\": " + ColumnsJson(kSectionColumns, unit) +
+         ",\n  \"lesions\": " + ColumnsJson(kLesionColumns, unit) + "\n}\n";
 }
 
 } // namespace voxelcore

@@ -171,6 +171,26 @@ TargetsFrom(const ParameterValues & values, CommandId command)
       throw UsageError("--sections " + apart + ": expected all, or a distance above 0 such as 1mm or 2vox");
     }
   }
+  const ParameterReader reader(values, command);
+  if (command == CommandId::Skeleton)
+  {
+    targets.branchMap = reader.FileIfGiven("branch-map");
+    targets.orderMap = reader.FileIfGiven("order-map");
+    targets.skeletonMap = reader.FileIfGiven("skeleton-map");
+  }
+  if (command != CommandId::Core)
+  {
+    targets.centerlines = reader.FileIfGiven("centerlines");
+    targets.flow = reader.FileIfGiven("flow");
+  }
+  if (values.contains("inlet"))
+  {
+    targets.inlets = ParseInlets(ValueOf(values, command, "inlet"));
+    if (!targets.centerlines && !targets.flow)
+    {
+      throw UsageError("--inlet: needs --centerlines or --flow");
+    }
+  }
   return targets;
 }
 

@@ -1,7 +1,10 @@
 #include "SkeletonJson.h"
 
+#include "voxelcore/SectionTables.h"
 #include "voxelcore/SkeletonTexts.h"
 #include "voxelcore/SpatialUnit.h"
+
+#include <cmath>
 
 namespace voxelcore
 {
@@ -98,6 +101,37 @@ ReadNetwork(const Json & json)
   return network;
 }
 
+Json
+LesionsJson(const std::vector<VesselLesion> & lesions)
+{
+  Json       json = Json::array();
+  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
+  for (const VesselLesion & one : lesions)
+  {
+    Json lesion{ { "kind", LesionText(one.kind) },
+                 { "branch_id", one.branch },
+                 { "arc_length_mm", one.arc },
+                 { "place_mm", one.place },
+                 { "length_mm", one.end - one.begin },
+                 { "diameter_mm", one.diameter },
+                 { "reference_diameter_mm", number(one.reference) } };
+    if (one.kind == LesionKind::Dome)
+    {
+      lesion["neck_width_mm"] = one.neckWidth;
+      lesion["dome_height_mm"] = one.height;
+      lesion["dome_volume_mm3"] = one.volume;
+      lesion["aspect_ratio"] = number(one.AspectRatio());
+    }
+    else
+    {
+      lesion["degree_by_diameter_percent"] = 100 * one.DegreeByDiameter();
+      lesion["degree_by_area_percent"] = 100 * one.DegreeByArea();
+    }
+    json.push_back(lesion);
+  }
+  return json;
+}
+
 } // namespace
 
 Json
@@ -191,6 +225,10 @@ SkeletonRecordJson(const SkeletonRecord & skeleton, bool inFile)
   }
   if (!inFile)
   {
+    if (skeleton.lesions)
+    {
+      json["lesions"] = LesionsJson(*skeleton.lesions);
+    }
     json["output"] = skeleton.output;
   }
   return json;

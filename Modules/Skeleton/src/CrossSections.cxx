@@ -224,28 +224,12 @@ private:
   FindDomes(const SkeletonGraph & graph)
   {
     m_Domes.resize(graph.nodePoints.size());
-    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    for (const DomeBranch & dome : DomesOf(graph))
     {
-      for (const std::size_t end : { 0U, 1U })
+      const double radius = graph.radius[dome.greatest];
+      if (!m_Domes[dome.node] || radius > m_Domes[dome.node]->radius)
       {
-        if (Kind(branch, end) != NodeKind::Junction || Kind(branch, 1 - end) != NodeKind::Tip)
-        {
-          continue;
-        }
-        const std::size_t  node = graph.branchNodes[branch][end];
-        const ElementIndex base = graph.nodePoints[node];
-        const auto         points = graph.Branch(branch);
-        const auto at = std::ranges::max_element(points, {}, [&](ElementIndex point) { return graph.radius[point]; });
-        const ElementIndex greatest = *at;
-        const ElementIndex tip = graph.nodePoints[graph.branchNodes[branch][1 - end]];
-        const Vector3 &    middle = m_Graph.positions[greatest];
-        const double       radius = graph.radius[greatest];
-        if (IsDomeBeside(radius, graph.radius[base], Distance(middle, m_Graph.positions[base])) &&
-            Distance(middle, m_Graph.positions[tip]) <= kDomeGoesOn * radius &&
-            (!m_Domes[node] || radius > m_Domes[node]->radius))
-        {
-          m_Domes[node] = { branch, middle, radius };
-        }
+        m_Domes[dome.node] = { dome.branch, m_Graph.positions[dome.greatest], radius };
       }
     }
   }

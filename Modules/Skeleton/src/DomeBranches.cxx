@@ -307,6 +307,35 @@ private:
 
 } // namespace
 
+std::vector<DomeBranch>
+DomesOf(const SkeletonGraph & graph)
+{
+  std::vector<DomeBranch> domes;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    for (const std::size_t end : { 0U, 1U })
+    {
+      const ElementIndex node = graph.branchNodes[branch][end];
+      const ElementIndex other = graph.branchNodes[branch][1 - end];
+      if (graph.nodeKinds[node] != NodeKind::Junction || graph.nodeKinds[other] != NodeKind::Tip)
+      {
+        continue;
+      }
+      const ElementIndex base = graph.nodePoints[node];
+      const ElementIndex greatest =
+        *std::ranges::max_element(graph.Branch(branch), {}, [&](ElementIndex point) { return graph.radius[point]; });
+      const Vector3 & middle = graph.positions[greatest];
+      const double    radius = graph.radius[greatest];
+      if (IsDomeBeside(radius, graph.radius[base], Distance(middle, graph.positions[base])) &&
+          Distance(middle, graph.positions[graph.nodePoints[other]]) <= kDomeGoesOn * radius)
+      {
+        domes.push_back({ branch, node, greatest });
+      }
+    }
+  }
+  return domes;
+}
+
 std::size_t
 StraightenPastDomes(SkeletonGraph & graph, const OpenShape & inside)
 {

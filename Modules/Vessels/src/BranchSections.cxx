@@ -1,16 +1,14 @@
 #include "voxelcore/BranchSections.h"
 
+#include "BorderPlaces.h"
+#include "NearestBranch.h"
 #include "PlaneContours.h"
 
-#include "voxelcore/BallTree.h"
 #include "voxelcore/ParallelTasks.h"
-#include "voxelcore/SpacingWeights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <memory>
 #include <numbers>
 #include <ranges>
 
@@ -23,7 +21,6 @@ namespace
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 // All in sides of the cube with a voxel's diagonal.
-constexpr double kDense = 0.5;        // between places on a branch, for its direction and its balls
 constexpr double kLeastWindow = 3;    // over which a direction is found, to each side
 constexpr double kWindowInRadii = 2;  // the same in radii, as what is thick zigzags in proportion
 constexpr double kFinest = 0.4;       // sides of squares in which a section is looked at,
@@ -32,23 +29,6 @@ constexpr double kInRadius = 8;       // and so many in a radius where that lies
 constexpr double kReachInRadii = 1.3; // a section goes hardly farther from its branch in most cases
 constexpr double kAstray = 1;         // a branch may lie outside a surface smoother than its voxels by about so much
 constexpr double kOtherIsNearer = 0.5;
-
-/** A branch as places close to each other, in mm along the axes of the grid. */
-struct DenseBranch
-{
-  std::vector<Vector3> places;
-  std::vector<double>  radius;
-  std::vector<double>  wide; ///< radius of the circle with the area of the section
-  std::vector<double>  arc;
-  std::vector<double>  arcOfPoint; ///< of the graph's points
-  bool                 isClosed = false;
-
-  double
-  Length() const
-  {
-    return arc.back();
-  }
-};
 
 /** Where a branch is and where it goes. */
 struct OnBranch
@@ -62,34 +42,16 @@ struct OnBranch
 class Branches
 {
 public:
-  Branches(const SkeletonGraph & graph, const ImageGeometry & geometry)
-    : m_Graph(&graph)
-    , m_Geometry(&geometry)
-    , m_Side(Length(geometry.spacing) / std::sqrt(3.0))
-  {
-    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-    {
-      m_Branches.push_back(Dense(branch));
-    }
-  }
-
-  double
-  VoxelSide() const
-  {
-    return m_Side;
-  }
-
-  const DenseBranch &
-  operator[](std::size_t branch) const
-  {
-    return m_Branches[branch];
-  }
+  Branches(const std::vector<DenseBranch> & branches, double side)
+    : m_Branches(&branches)
+    , m_Side(side)
+  {}
 
   /** The place is on the lines between points; the axis is that of the parabola that fits best around it. */
   OnBranch
   At(std::size_t branch, double arc) const
   {
-    const DenseBranch & line = m_Branches[branch];
+    const DenseBranch & line = (*m_Branches)[branch];
     const auto          after = std::ranges::lower_bound(line.arc, arc);
     const auto          last =
       static_cast<std::size_t>(std::min<std::ptrdiff_t>(std::max<std::ptrdiff_t>(after - line.arc.begin(), 1),
@@ -105,45 +67,6 @@ public:
   }
 
 private:
-  DenseBranch
-  Dense(std::size_t branch) const
-  {
-    DenseBranch line;
-    const auto  points = m_Graph->Branch(branch);
-    line.isClosed = m_Graph->branchNodes[branch][0] == m_Graph->branchNodes[branch][1];
-    double arc = 0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      const Vector3 place = Times(PhysicalToLattice(*m_Geometry, m_Graph->positions[points[i]]), m_Geometry->spacing);
-      const double  radius = m_Graph->radius[points[i]];
-      const double  wide = std::max(radius, SectionRadii(*m_Graph)[points[i]]);
-      if (i > 0)
-      {
-        const double  fromWide = line.wide.back();
-        const Vector3 from = line.places.back();
-        const double  fromRadius = line.radius.back();
-        const Vector3 way = Minus(place, from);
-        const double  length = Length(way);
-        const auto    parts = static_cast<int>(std::ceil(length / (kDense * m_Side)));
-        for (int part = 1; part < parts; ++part)
-        {
-          const double t = static_cast<double>(part) / parts;
-          line.places.push_back(AddScaled(from, t, way));
-          line.radius.push_back((1 - t) * fromRadius + t * radius);
-          line.wide.push_back((1 - t) * fromWide + t * wide);
-          line.arc.push_back(arc + t * length);
-        }
-        arc += length;
-      }
-      line.places.push_back(place);
-      line.radius.push_back(radius);
-      line.wide.push_back(wide);
-      line.arc.push_back(arc);
-      line.arcOfPoint.push_back(arc);
-    }
-    return line;
-  }
-
   /** By least squares over `window` before and behind; round a closed branch. */
   static Vector3
   Axis(const DenseBranch & line, double arc, double window)
@@ -201,82 +124,9 @@ private:
     return Length(slope) > 0 ? AddScaled({}, 1 / Length(slope), slope) : Vector3{ 0, 0, 1 };
   }
 
-  const SkeletonGraph *    m_Graph;
-  const ImageGeometry *    m_Geometry;
-  double                   m_Side;
-  std::vector<DenseBranch> m_Branches;
+  const std::vector<DenseBranch> * m_Branches;
+  double                           m_Side;
 };
-
-/** Which branch a place is nearest to, by the balls along branches. */
-class NearestBranch
-{
-public:
-  explicit NearestBranch(const Branches & branches, std::size_t count)
-    : m_Margin(kOtherIsNearer * branches.VoxelSide())
-  {
-    std::vector<Vector3> places;
-    std::vector<double>  radius;
-    for (std::size_t branch = 0; branch < count; ++branch)
-    {
-      const DenseBranch & line = branches[branch];
-      places.insert(places.end(), line.places.begin(), line.places.end());
-      radius.insert(radius.end(), line.radius.begin(), line.radius.end());
-      m_BranchOf.resize(places.size(), static_cast<ElementIndex>(branch));
-      m_Own.push_back(std::make_unique<BallTree>(line.places, line.radius, SpacingWeights()));
-    }
-    m_All = std::make_unique<BallTree>(places, radius, SpacingWeights());
-  }
-
-  /** The branch that most of `places` are nearer to than to their own, by half a voxel. */
-  ElementIndex
-  Other(ElementIndex own, const std::vector<Vector3> & places) const
-  {
-    std::map<ElementIndex, std::size_t> found;
-    std::size_t                         hint = 0;
-    std::size_t                         ownHint = 0;
-    for (const Vector3 & place : places)
-    {
-      const double       gap = m_All->Gap(place, -HUGE_VAL, hint);
-      const ElementIndex branch = m_BranchOf[m_All->BallOf(hint)];
-      if (branch != own && m_Own[own]->Gap(place, -HUGE_VAL, ownHint) > gap + m_Margin)
-      {
-        ++found[branch];
-      }
-    }
-    ElementIndex most = kNoBranch;
-    std::size_t  count = 0;
-    for (const auto & [branch, times] : found)
-    {
-      if (times > count)
-      {
-        most = branch;
-        count = times;
-      }
-    }
-    return most;
-  }
-
-private:
-  double                                 m_Margin;
-  std::vector<ElementIndex>              m_BranchOf; ///< by ball
-  std::vector<std::unique_ptr<BallTree>> m_Own;      ///< by branch
-  std::unique_ptr<BallTree>              m_All;
-};
-
-/** Whether a place in lattice coordinates lies in the border of a scan, or beyond it. */
-bool
-IsAtBorder(const VoxelBox & scan, const Vector3 & lattice)
-{
-  constexpr double kNear = 0.5; // of a voxel: as far as a surface is from the boundary of voxels
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    if (lattice[k] < scan.lower[k] + kNear || lattice[k] > scan.lower[k] + scan.size[k] - kNear)
-    {
-      return true;
-    }
-  }
-  return false;
-}
 
 Vector3
 TurnedToLps(const ImageGeometry & geometry, const Vector3 & alongGrid)
@@ -362,11 +212,13 @@ BranchSection::Circularity() const
 std::vector<BranchSection>
 MeasureSections(const SkeletonGraph & graph, const SectionBody & body, std::optional<double> every)
 {
-  const Branches             branches(graph, body.geometry);
-  std::vector<BranchSection> sections;
+  const double                   side = VoxelSide(body.geometry);
+  const std::vector<DenseBranch> dense = DenseBranches(graph, body.geometry);
+  const Branches                 branches(dense, side);
+  std::vector<BranchSection>     sections;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
-    const DenseBranch & line = branches[branch];
+    const DenseBranch & line = dense[branch];
     std::vector<double> arcs = line.arcOfPoint;
     if (every)
     {
@@ -384,8 +236,7 @@ MeasureSections(const SkeletonGraph & graph, const SectionBody & body, std::opti
       sections.back().arc = arc;
     }
   }
-  const NearestBranch nearest(branches, graph.BranchCount());
-  const double        side = branches.VoxelSide();
+  const NearestBranch nearest(dense, kOtherIsNearer * side);
   RunEach(sections.size(), [&](std::size_t i) {
     BranchSection &    section = sections[i];
     const OnBranch     on = branches.At(section.branch, section.arc);

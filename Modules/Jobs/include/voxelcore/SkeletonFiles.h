@@ -64,7 +64,18 @@ public:
   void
   Finish(const CoreReport & report, std::vector<std::string> & notes);
 
+  /** \throws InputError where a file cannot have lengths in this unit */
+  void
+  RequireUnit(SpatialUnit unit) const;
+
 private:
+  bool
+  IsFlowJson() const;
+  /** Centerlines first, then of flow segments, nodes and columns. */
+  std::vector<std::filesystem::path>
+  FlowTargets() const;
+  void
+  WriteFlow(const CoreReport & report);
   bool
   Wants(const std::string & ending) const;
   std::vector<std::filesystem::path>

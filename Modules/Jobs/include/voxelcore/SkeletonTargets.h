@@ -1,11 +1,13 @@
 #pragma once
 // Where a job's skeletons go besides the result.
 
+#include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LambdaPruning.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxelcore
@@ -20,13 +22,38 @@ struct SkeletonTargets
   /** Sections of the body along branches, so far apart; 0: at each point. Of scans, into one file. */
   std::optional<Lambda> sections{};
 
-  /** Whether anything is asked of the bodies around skeletons. */
-  bool
+  // Volumes on the scan's grid, of scans: of each voxel the row of its branch in the table of branches, from 1; the
+  // Strahler order of that; and the label of the skeleton, where that runs.
+  std::optional<std::filesystem::path> branchMap{};
+  std::optional<std::filesystem::path> orderMap{};
+  std::optional<std::filesystem::path> skeletonMap{};
+
+  std::optional<std::filesystem::path> centerlines{}; ///< .vtp, as VMTK has them
+  std::optional<std::filesystem::path> flow{};        ///< .csv with a table of nodes, or .json for svZeroDSolver
+  std::vector<Vector3>                 inlets{};      ///< of both, LPS mm
+
+  /** The option that asks for something of the bodies around skeletons; empty: none does. */
+  std::string_view
   NeedsBodies() const
   {
-    return sections.has_value();
+    return sections      ? "--sections"
+           : branchMap   ? "--branch-map"
+           : orderMap    ? "--order-map"
+           : skeletonMap ? "--skeleton-map"
+                         : "";
+  }
+
+  /** The option for which all labels go into one file; empty: none. */
+  std::string_view
+  NeedsOneFile() const
+  {
+    return !NeedsBodies().empty() ? NeedsBodies() : centerlines ? "--centerlines" : flow ? "--flow" : "";
   }
 };
+
+/** "x,y,z" in LPS mm, several with semicolons between. \throws UsageError */
+std::vector<Vector3>
+ParseInlets(const std::string & text);
 
 /** Comma-separated endings for `also`. \throws UsageError for one that is not known */
 std::vector<std::string>

@@ -1,9 +1,10 @@
 #pragma once
-// Cross-sections of bodies as files.
+// Cross-sections of bodies, and the lesions of vessels, as files.
 
 #include "voxelcore/BranchSections.h"
 #include "voxelcore/SkeletonModel.h"
 #include "voxelcore/SpatialUnit.h"
+#include "voxelcore/VesselLesions.h"
 
 #include <filesystem>
 #include <string>
@@ -16,6 +17,7 @@ namespace voxelcore
 struct SectionsOfPart
 {
   std::vector<BranchSection> sections;
+  std::vector<VesselLesion>  lesions;
   std::vector<std::int64_t>  labels; ///< of the branches, by number
   std::vector<std::string>   names;  ///< the same
   std::int64_t               component = 0;
@@ -23,7 +25,7 @@ struct SectionsOfPart
 
 /** With what the tables say of its branches. */
 SectionsOfPart
-NameSections(const SkeletonPart & part, std::vector<BranchSection> sections);
+NameSections(const SkeletonPart & part, std::vector<BranchSection> sections, std::vector<VesselLesion> lesions);
 
 /** Comma-separated values, a row per section. \throws OutputError */
 void
@@ -34,7 +36,15 @@ WriteSectionCsv(const std::filesystem::path & path, const std::vector<SectionsOf
 void
 WriteSectionVtp(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts, SpatialUnit unit);
 
-/** What the columns mean, as JSON. */
+/** "stenosis", "bulge" or "dome". */
+const char *
+LesionText(LesionKind kind);
+
+/** Comma-separated values, a row per lesion. \throws OutputError */
+void
+WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts);
+
+/** What the columns of both tables mean, as JSON. */
 std::string
 SectionColumnsJson(SpatialUnit unit);
 

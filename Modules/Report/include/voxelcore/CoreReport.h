@@ -9,6 +9,7 @@
 #include "voxelcore/ShapeEdits.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/TopologyNumbers.h"
+#include "voxelcore/VesselLesions.h"
 #include "voxelcore/VoxelShape.h"
 
 #include <array>
@@ -81,6 +82,8 @@ struct SkeletonRecord
 
   std::optional<BorderNumbers>   border{};  ///< where it is not closed, and the body lies at it
   std::optional<SkeletonNetwork> network{}; ///< of several labels
+
+  std::optional<std::vector<VesselLesion>> lesions{}; ///< where sections were asked for; in reports, not in files
 };
 
 /** One label, or one of its components where these are split. */

@@ -6,6 +6,7 @@
 #include "voxelcore/SkeletonGraph.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace voxelcore
 {
@@ -25,6 +26,19 @@ IsDomeBeside(double radius, double other, double way)
 {
   return radius > other && way + radius - other >= kDomeOfRadius * radius;
 }
+
+/** A branch from a junction that leads into a dome. */
+struct DomeBranch
+{
+  std::size_t  branch = 0;
+  ElementIndex node = 0;     ///< the junction
+  ElementIndex greatest = 0; ///< point with the dome's greatest ball
+};
+
+/** Branches that end in a tip, and whose greatest ball is a dome beside that at their junction and ends with it. In
+ *  order of branches. */
+std::vector<DomeBranch>
+DomesOf(const SkeletonGraph & graph);
 
 /** Fire in a tube may come to a dome at its side from both ends before it burns the neck: the line runs into the dome
  *  and back. As far as each of the two ways lies in the balls of the other they are one: they meet in the middle

@@ -1,0 +1,42 @@
+#pragma once
+// Centerlines and networks of pipes as files for other programs.
+
+#include "voxelcore/Centerlines.h"
+#include "voxelcore/FlowNetwork.h"
+#include "voxelcore/SpatialUnit.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** XML polydata as VMTK's branch extractor gives it: a poly line per tract with points of its own; point array
+ *  MaximumInscribedSphereRadius; cell arrays CenterlineIds, TractIds, GroupIds, Blanking (1 in bifurcations), and
+ *  Label. \throws OutputError */
+void
+WriteCenterlineVtp(const std::filesystem::path & path, const std::vector<CenterlineTract> & tracts, SpatialUnit unit);
+
+/** Comma-separated values: a row per segment, and in `nodes` a row per node. `parts` are those of the network.
+ *  \throws OutputError */
+void
+WriteFlowCsv(const std::filesystem::path &         segments,
+             const std::filesystem::path &         nodes,
+             const FlowNetwork &                   network,
+             const std::vector<MeasuredSkeleton> & parts);
+
+/** What the columns of both mean, as JSON. */
+std::string
+FlowColumnsJson(SpatialUnit unit);
+
+/** Input of svZeroDSolver (github.com/SimVascular/svZeroDSolver) in centimetres, grams and seconds, of a network in mm:
+ *  a BloodVessel per segment with the resistance of Poiseuille and the inertance of blood (density 1.06, viscosity
+ *  0.04), capacitance 0, and its branch and label; a NORMAL_JUNCTION per inner node. Flow and pressure at the ends are
+ *  examples: 1 cm^3/s in all together, shared by area, and pressure 0. \throws OutputError */
+void
+WriteFlowJson(const std::filesystem::path &         path,
+              const FlowNetwork &                   network,
+              const std::vector<MeasuredSkeleton> & parts);
+
+} // namespace voxelcore
