@@ -59,8 +59,8 @@ def table(path):
 
 
 def stem_is_upright(picture):
-    """The stem, the thickest green body of the picture, is wider at the top, and there is more of it there."""
-    widths = [sum(p[1] > 140 and p[1] > p[0] + 60 and p[1] > p[2] + 30 for p in row) for row in pixels(picture)]
+    """The stem, the thickest brown body of the picture, is wider at the top, and there is more of it there."""
+    widths = [sum(120 > p[0] > p[2] + 12 and p[0] > p[1] > p[2] for p in row) for row in pixels(picture)]
     rows = [i for i, width in enumerate(widths) if width > 2]
     check(len(rows) > 100, "there is no stem in the picture")
     half = (rows[0] + rows[-1]) // 2

@@ -246,6 +246,42 @@ TEST(RootHierarchy, ABridgeBetweenTwoRootsIsNoRoot)
   ASSERT_EQ(roots.meetings.size(), 1U);
 }
 
+/** A lateral that runs up beside another, joined to it by what is `away` long. */
+SkeletonGraph
+BesideEachOther(double away)
+{
+  const Spacing3 onFirst{ 0, 14, 42 };
+  const Spacing3 onSecond{ 0.6 * away, 14, 42 - 0.8 * away };
+  GraphBuilder   builder;
+  builder.Line({ -60, 0, 160 }, { -60, 0, 120 }, 8);
+  builder.Line({ -60, 0, 120 }, { -60, 0, 0 }, 8);
+  builder.Line({ -60, 0, 120 }, { 0, 0, 150 }, 4);
+  builder.Line({ 0, 0, 150 }, { 0, 0, 100 }, 4);
+  builder.Line({ 0, 0, 100 }, { 0, 0, 20 }, 4);
+  builder.Line({ 0, 0, 20 }, { 0, 0, -40 }, 4);
+  builder.Line({ 0, 0, 100 }, onFirst, 2);
+  builder.Line(onFirst, { 0, 27, 0 }, 2);
+  builder.Line({ 0, 0, 20 }, onSecond, 2);
+  builder.Line(onSecond, { 20, 40, 80 }, 2);
+  builder.Line(onFirst, onSecond, 1);
+  return builder.Graph();
+}
+
+TEST(RootHierarchy, WhatLeadsFromARootToAnotherIsNoRootUnlessItIsLong)
+{
+  for (const double away : { 6.0, 12.0 })
+  {
+    const SkeletonGraph graph = BesideEachOther(away);
+    const RootHierarchy roots = FindRoots(graph);
+    const bool          isBridge = away < 2 * 1.6 * 2;
+    EXPECT_EQ(roots.axes.size(), isBridge ? 4U : 5U) << away;
+    EXPECT_EQ(std::ranges::count(roots.leftOut, LeftOut::Bridge), isBridge ? 1 : 0) << away;
+    ASSERT_EQ(roots.meetings.size(), 1U) << away;
+    // Its contact reaches from one to the other.
+    EXPECT_GT(roots.meetings[0].reach, isBridge ? away : 0) << away;
+  }
+}
+
 TEST(RootHierarchy, ARootThatEndsAtAnotherEndsThere)
 {
   GraphBuilder builder;
@@ -317,6 +353,26 @@ TEST(RootHierarchy, AStemIsWhereItIsSaidToBe)
   const RootHierarchy roots = FindRoots(graph, rules);
   EXPECT_EQ(graph.positions[roots.axes[0].points.front()], (Spacing3{ 0, 0, 100 }));
   EXPECT_EQ(TipOf(graph, roots.axes[0]), (Spacing3{ 60, 0, 0 }));
+}
+
+TEST(RootHierarchy, AStemRunsOnThroughShortPiecesThatTurnWithinItsNode)
+{
+  const Spacing3 below{ 0, 0, 52 };
+  const Spacing3 above{ 5, 0, 53 };
+  GraphBuilder   builder;
+  builder.Line({ 0, 0, 0 }, below, 10);
+  builder.Line(below, above, 10);
+  builder.Line(above, { 5, 0, 68 }, 10);
+  builder.Line(above, { 15, 0, 53 }, 10); // bulges to both sides, straight on from the short piece
+  builder.Line(below, { -12, 0, 51 }, 10.5);
+  builder.Line(below, { -40, 0, 10 }, 2);
+  builder.Line(below, { 0, 40, 10 }, 2);
+  const SkeletonGraph graph = builder.Graph();
+  RootRules           rules;
+  rules.up = Vector3{ 0, 0, 1 };
+  const RootHierarchy roots = FindRoots(graph, rules);
+  EXPECT_EQ(graph.positions[roots.axes[0].points.front()], (Spacing3{ 5, 0, 68 }));
+  EXPECT_EQ(graph.positions[roots.axes[0].points.back()], (Spacing3{ 0, 0, 0 }));
 }
 
 TEST(RootHierarchy, APieceByItselfIsLoose)

@@ -7,6 +7,7 @@
 #include "PictureFile.h"
 #include "PictureMesh.h"
 #include "PictureOverlay.h"
+#include "ShownMesh.h"
 #include "VirtualDisplay.h"
 #include "voxelcore/Error.h"
 
@@ -31,12 +32,13 @@ namespace voxelcore
 namespace
 {
 
-constexpr int         kOversampling = 2;  ///< pixels drawn for each of the picture, along each side
-constexpr std::size_t kMostInLegend = 12; ///< labels
-constexpr double      kGlass = 0.16;      ///< opacity of a surface with something in it
-constexpr double      kLeastTube = 1.2;   ///< radius of a curve, in pixels of the picture
-constexpr double      kSmall = 0.8;       ///< letters of names, in letters
-constexpr double      kBarBottom = 12;    ///< of the colour bar, above directions and scale bar; in letters
+constexpr int         kOversampling = 2;     ///< pixels drawn for each of the picture, along each side
+constexpr std::size_t kMostInLegend = 12;    ///< labels
+constexpr double      kGlass = 0.16;         ///< opacity of a surface with something in it
+constexpr std::size_t kMostOfGlass = 200000; ///< triangles of it, of each label
+constexpr double      kLeastTube = 1.2;      ///< radius of a curve, in pixels of the picture
+constexpr double      kSmall = 0.8;          ///< letters of names, in letters
+constexpr double      kBarBottom = 12;       ///< of the colour bar, above directions and scale bar; in letters
 
 PointCloud
 AllPoints(const DisplayContent & content)
@@ -188,7 +190,10 @@ private:
       LabelMeshes meshes;
       if (!label.surface.triangles.empty())
       {
-        meshes.surface = SurfacePolyData(label.surface);
+        const bool isGlass = !m_Options.panels && (m_HasMedial || m_HasCurves);
+        ShownMesh  fewer = isGlass ? SimplifiedSurface(label.surface, kMostOfGlass) : ShownMesh();
+        meshes.surface = SurfacePolyData(
+          isGlass ? LabelSurfaceMesh{ std::move(fewer.points), std::move(fewer.triangles) } : label.surface);
       }
       if (label.medial.core.cells.vertexCount > 0)
       {
@@ -209,7 +214,7 @@ private:
     if (!m_Options.panels)
     {
       const bool inside = m_HasMedial || m_HasCurves;
-      m_Panels.push_back({ "", inside ? kGlass : 1.0, m_HasCurves ? 0.45 : 1.0, 1.0 });
+      m_Panels.push_back({ m_Options.title, inside ? kGlass : 1.0, m_HasCurves ? 0.45 : 1.0, 1.0 });
       return;
     }
     if (m_HasSurface)
@@ -261,7 +266,7 @@ private:
     m_Request.multiple = kOversampling;
     m_Request.left = m_Request.bottom = m_Request.top = 0.5 * m_Text;
     m_Request.right = RightMargin() * m_Text;
-    m_Request.title = m_Options.panels ? 2 * m_Text : 0;
+    m_Request.title = m_Options.panels || !m_Options.title.empty() ? 2 * m_Text : 0;
     m_Request.leastWidth = (m_Options.panels ? 9 : 6) * m_Text;
     m_Request.leastHeight = (kBarBottom + (HasLegend() ? 15 : 13)) * m_Text;
     m_Layout = LayOutPanels(m_Request, m_Frame);
@@ -368,7 +373,7 @@ private:
     {
       overlay.AddDirections(axes.right, axes.up, x + 2.5 * m_Text, 6.6 * m_Text, 1.7 * m_Text, m_Text);
     }
-    for (std::size_t i = 0; m_Options.panels && i < m_Panels.size(); ++i)
+    for (std::size_t i = 0; m_Request.title > 0 && i < m_Panels.size(); ++i)
     {
       const auto   corner = m_Layout.Corner(i, m_Request);
       const double middle = corner[0] + m_Layout.panelWidth / 2;

@@ -7,6 +7,7 @@
 #include "voxelcore/RenderPicture.h"
 #include "voxelcore/StagePlan.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -50,6 +51,10 @@ private:
   Vector3 m_Z{};
 };
 
+constexpr std::int32_t kMostLevels = 8; // with a colour of their own; the last is for more, too
+constexpr Color        kStemColor{ 0.2, 0.14, 0.1 };
+constexpr std::size_t  kEvenOver = 3; // points to each side over which shown radii are evened out
+
 /** The point from which a root is drawn: not on its parent's axis, where its tube would show through the parent's. */
 std::size_t
 FirstShown(const RootModel & model, const RootAxis & axis)
@@ -67,6 +72,41 @@ FirstShown(const RootModel & model, const RootAxis & axis)
     ++first;
   }
   return first;
+}
+
+/** The radii that are drawn, from a point on: evened out, and within the parent no greater than where it leaves it. */
+std::vector<double>
+ShownRadii(const RootModel & model, const RootAxis & axis, std::size_t first)
+{
+  std::vector<double> radii;
+  for (std::size_t i = first; i < axis.points.size(); ++i)
+  {
+    const std::size_t from = i < first + kEvenOver ? first : i - kEvenOver;
+    const std::size_t to = std::min(i + kEvenOver, axis.points.size() - 1);
+    double            sum = 0;
+    for (std::size_t k = from; k <= to; ++k)
+    {
+      sum += SectionRadii(model.graph)[axis.points[k]];
+    }
+    radii.push_back(sum / static_cast<double>(to - from + 1));
+  }
+  if (axis.parent == kNoRoot)
+  {
+    return radii;
+  }
+  const RootAxis & parent = model.roots.axes[axis.parent];
+  for (std::size_t i = radii.size(); i-- > 0;)
+  {
+    const Vector3 &    place = model.graph.positions[axis.points[first + i]];
+    const ElementIndex nearest = std::ranges::min(parent.points, {}, [&](ElementIndex point) {
+      return Distance(place, model.graph.positions[point]);
+    });
+    if (i + 1 < radii.size() && Distance(place, model.graph.positions[nearest]) < SectionRadii(model.graph)[nearest])
+    {
+      radii[i] = std::min(radii[i], radii[i + 1]);
+    }
+  }
+  return radii;
 }
 
 /** What stands under the pointer. */
@@ -92,18 +132,21 @@ ContentOf(const RootModel & model, const VoxelShape & shape, const ImageGeometry
   for (std::size_t number = 0; number < model.roots.axes.size(); ++number)
   {
     const RootAxis & axis = model.roots.axes[number];
-    DisplayLabel &   label = levels[axis.level];
-    label.label = axis.level;
-    label.name = axis.level == 0 ? std::string("stem") : "level " + std::to_string(axis.level);
-    label.color = LabelColor(axis.level + 1);
+    const auto       level = std::min(axis.level, kMostLevels);
+    DisplayLabel &   label = levels[level];
+    label.label = level;
+    label.name = level == 0 ? std::string("stem") : "level " + std::to_string(level);
+    label.name += level == kMostLevels ? " and more" : "";
     SkeletonGraph & curves = label.curves;
     label.curveNames.push_back(RootWords(model, number));
-    for (std::size_t i = FirstShown(model, axis); i < axis.points.size(); ++i)
+    const std::size_t         first = FirstShown(model, axis);
+    const std::vector<double> radii = ShownRadii(model, axis, first);
+    for (std::size_t i = first; i < axis.points.size(); ++i)
     {
       const ElementIndex point = axis.points[i];
       curves.branchPoints.push_back(static_cast<ElementIndex>(curves.positions.size()));
       curves.positions.push_back(turn(model.graph.positions[point]));
-      curves.radius.push_back(SectionRadii(model.graph)[point]);
+      curves.radius.push_back(radii[i - first]);
       curves.erosionThickness.push_back(std::numeric_limits<double>::quiet_NaN());
     }
     for (const ElementIndex point :
@@ -118,6 +161,8 @@ ContentOf(const RootModel & model, const VoxelShape & shape, const ImageGeometry
   }
   for (auto & [level, label] : levels)
   {
+    const double last = std::max(2, levels.rbegin()->first - 1);
+    label.color = level == 0 ? kStemColor : LengthColor((level - 1) / last);
     content.labels.push_back(std::move(label));
   }
   DisplayLabel surface;
@@ -161,6 +206,7 @@ DrawRoots(const RootModel &        model,
   picture.tubes = 0.6;
   picture.shrink = true;
   picture.anatomical = false;
+  picture.title = model.name;
   RenderPictures(
     content,
     picture,

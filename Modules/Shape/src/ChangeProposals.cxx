@@ -104,7 +104,7 @@ public:
     {
       return;
     }
-    for (const LeastCut::Result & one : cut.Run())
+    for (const LeastCut::Result & one : cut.Run(m_Change.total)) // what costs as much is no proposal
     {
       ChangeProposal proposal{ m_Change.isFill, 0, {}, {} };
       for (const std::size_t i : one.nodes)

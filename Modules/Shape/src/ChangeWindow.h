@@ -4,6 +4,7 @@
 #include "PaddedShape.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -42,11 +43,13 @@ public:
   Voxel
   At(std::size_t number) const
   {
-    const auto x = static_cast<std::size_t>(m_Size[0]);
-    const auto y = static_cast<std::size_t>(m_Size[1]);
-    return { static_cast<std::int32_t>(number % x) + m_Lower[0],
-             static_cast<std::int32_t>(number / x % y) + m_Lower[1],
-             static_cast<std::int32_t>(number / x / y) + m_Lower[2] };
+    const auto at = static_cast<std::uint32_t>(number); // windows are small: labels have as many bits
+    const auto x = static_cast<std::uint32_t>(m_Size[0]);
+    const auto y = static_cast<std::uint32_t>(m_Size[1]);
+    const auto row = at / x;
+    return { static_cast<std::int32_t>(at - row * x) + m_Lower[0],
+             static_cast<std::int32_t>(row % y) + m_Lower[1],
+             static_cast<std::int32_t>(row / y) + m_Lower[2] };
   }
 
   std::size_t
@@ -74,14 +77,32 @@ public:
     const auto sizeX = static_cast<std::ptrdiff_t>(m_Size[0]);
     const auto plane = sizeX * m_Size[1];
     const auto here = static_cast<std::ptrdiff_t>(number);
+    if (!corners)
+    {
+      const std::array<std::ptrdiff_t, 3> step{ 1, sizeX, plane };
+      for (const std::size_t axis : { 2U, 1U, 0U })
+      {
+        if (first[axis] < 0)
+        {
+          visit(static_cast<std::size_t>(here - step[axis]));
+        }
+      }
+      for (const std::size_t axis : { 0U, 1U, 2U })
+      {
+        if (last[axis] > 0)
+        {
+          visit(static_cast<std::size_t>(here + step[axis]));
+        }
+      }
+      return;
+    }
     for (std::int32_t z = first[2]; z <= last[2]; ++z)
     {
       for (std::int32_t y = first[1]; y <= last[1]; ++y)
       {
         for (std::int32_t x = first[0]; x <= last[0]; ++x)
         {
-          const std::int32_t length = x * x + y * y + z * z;
-          if (length == 1 || (corners && length > 0))
+          if (x != 0 || y != 0 || z != 0)
           {
             visit(static_cast<std::size_t>(here + x + y * sizeX + z * plane));
           }

@@ -51,13 +51,20 @@ public:
     HierarchyChoice choice(m_Branches, m_Flow, m_Pairing, m_Partner);
     choice.Search();
     choice.ReachAll();
-    Direct(choice.Roots());
+    const std::vector<ChosenRoot> roots = choice.Roots();
+    Direct(roots);
+    FindBridges(roots, choice);
     for (ElementIndex place = 0; place < m_Members.size(); ++place)
     {
       if (!m_Members[place].empty())
       {
         Note(m_Members[place], choice.ArmsAt(place), choice);
       }
+    }
+    for (ElementIndex branch = 0; branch < m_IsBridge.size(); ++branch)
+    {
+      m_Pairing.inside[branch] = m_Pairing.inside[branch] || m_IsBridge[branch];
+      m_Pairing.parent[branch] = m_IsBridge[branch] ? kNoRoot : m_Pairing.parent[branch];
     }
     return std::move(m_Pairing);
   }
@@ -239,6 +246,27 @@ private:
     }
   }
 
+  /** What leads from a root to another, nothing springing from it, and is no longer than they are thick. */
+  void
+  FindBridges(const std::vector<ChosenRoot> & roots, const HierarchyChoice & choice)
+  {
+    m_IsBridge.assign(m_Pairing.next.size(), 0);
+    for (const ChosenRoot & root : roots)
+    {
+      const ElementIndex branch = root.arms[0] / 2;
+      double             other = 0;
+      for (const ElementIndex arm : choice.ArmsAt(choice.PlaceOf(root.arms[1])))
+      {
+        other = std::max(other, arm / 2 == branch ? 0 : m_Branches.Radius(arm / 2));
+      }
+      if (root.level > 0 && root.children == 0 && root.arms[1] / 2 == branch)
+      {
+        const double thinner = std::min(other, m_Branches.Radius(root.parent));
+        m_IsBridge[branch] = m_Branches.LengthOf(branch) <= m_Rules.bridgeLength * 2 * thinner;
+      }
+    }
+  }
+
   /** What goes on as what at a place, and the contact that is there where more than one branch arrives. */
   void
   Note(const std::vector<ElementIndex> & hubs, const std::vector<ElementIndex> & arms, HierarchyChoice & choice)
@@ -281,6 +309,14 @@ private:
     }
     for (const BranchEnd & end : arriving)
     {
+      if (m_IsBridge[end.branch]) // its contact reaches to the root it comes from
+      {
+        const ElementIndex base = m_Branches.PointFrom(end.Other(), 0);
+        meeting.arms.push_back(m_Pairing.parent[end.branch]);
+        meeting.reach = std::max(meeting.reach,
+                                 Distance(m_Branches.Graph().positions[base], meeting.position) +
+                                   kOutsideBall * m_Branches.Graph().radius[base]);
+      }
       const ElementIndex partner = m_Partner[ArmOf(end)];
       meeting.arms.push_back(end.branch);
       m_Pairing.endsAtMeeting[end.branch] = partner == kNoRoot;
@@ -354,6 +390,7 @@ private:
   UnionFind                              m_Clusters; ///< hubs of one contact
   std::vector<std::vector<ElementIndex>> m_Members;  ///< per contact its hubs
   std::vector<ElementIndex>              m_Partner;  ///< per arm
+  std::vector<std::uint8_t>              m_IsBridge; ///< per branch
   RootPairing                            m_Pairing;
 };
 

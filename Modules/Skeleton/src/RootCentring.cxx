@@ -30,21 +30,29 @@ constexpr double kBackground = 0.15; ///< brightness below which there is no roo
 constexpr double kLeastWeight = 0.3; ///< of neighbours that know a move
 constexpr int    kRounds = 2;
 
-/** Points by the cubes of a grid they lie in. */
-class PointCells
+/** A ball of a root. */
+struct RootBall
+{
+  Vector3      place;
+  double       radius;
+  ElementIndex owner;
+};
+
+/** Balls by the cubes of a grid they lie in. */
+class BallCells
 {
 public:
-  explicit PointCells(double side)
+  explicit BallCells(double side)
     : m_Side(side)
   {}
 
   void
-  Add(ElementIndex point, const Vector3 & place)
+  Add(const RootBall & ball)
   {
-    m_Cells[CellOf(place)].push_back(point);
+    m_Cells[CellOf(ball.place)].push_back(ball);
   }
 
-  /** Calls `visit` with all points up to `reach` away, and others. */
+  /** Calls `visit` with all balls up to `reach` away, and others. */
   template <typename Visit>
   void
   VisitNear(const Vector3 & place, double reach, const Visit & visit) const
@@ -89,8 +97,8 @@ private:
     return cell;
   }
 
-  double                                                        m_Side;
-  std::unordered_map<Cell, std::vector<ElementIndex>, CellHash> m_Cells;
+  double                                                    m_Side;
+  std::unordered_map<Cell, std::vector<RootBall>, CellHash> m_Cells;
 };
 
 /** Places in mm along the axes of the grid, from its corner. */
@@ -128,7 +136,7 @@ public:
     {
       if (m_Owner[point] != kNoRoot)
       {
-        (IsThin(point) ? m_Thin : m_Thick).Add(point, m_First[point]);
+        (IsThin(point) ? m_Thin : m_Thick).Add({ m_First[point], m_Radii[point], m_Owner[point] });
       }
     }
   }
@@ -153,15 +161,17 @@ public:
   }
 
 private:
-  /** Points of other roots whose bodies may reach into a ball. */
-  std::vector<ElementIndex>
+  /** Balls of other roots that may reach into a ball. */
+  std::vector<RootBall>
   OthersNear(ElementIndex axis, const Vector3 & place, double radius) const
   {
-    std::vector<ElementIndex> others;
-    const auto                visit = [&](ElementIndex point) {
-      if (m_Owner[point] != axis && Distance(m_First[point], place) < 2 * radius + m_Radii[point] + m_Slice)
+    std::vector<RootBall> others;
+    const auto            visit = [&](const RootBall & ball) {
+      const Vector3 away = Minus(ball.place, place);
+      const double  reach = 2 * radius + ball.radius + m_Slice;
+      if (ball.owner != axis && Dot(away, away) < reach * reach)
       {
-        others.push_back(point);
+        others.push_back(ball);
       }
     };
     m_Thin.VisitNear(place, 2 * radius + (kThin + 1) * m_Slice, visit);
@@ -177,9 +187,9 @@ private:
 
   /** Never 0. */
   double
-  RadiusAt(ElementIndex point) const
+  Least(double radius) const
   {
-    return std::max(m_Radii[point], 0.4 * m_Slice);
+    return std::max(radius, 0.4 * m_Slice);
   }
 
   /** From a point to the mean place of what is bright around it, across `along`; none where other roots are near. */
@@ -187,7 +197,8 @@ private:
   Offset(ElementIndex axis, ElementIndex point, const Vector3 & along) const
   {
     const Vector3 &             place = m_Places[point];
-    const double                reach = RadiusAt(point) + kBeyond * m_Slice;
+    const double                radius = Least(m_Radii[point]);
+    const double                reach = radius + kBeyond * m_Slice;
     const double                ball = std::hypot(reach, kAlong * m_Slice);
     const auto                  others = OthersNear(axis, place, reach);
     std::array<std::int32_t, 3> low{};
@@ -213,10 +224,10 @@ private:
           {
             continue;
           }
-          const double own = Length(away) / RadiusAt(point);
-          for (const ElementIndex other : others)
+          const double own = Length(away) / radius;
+          for (const RootBall & other : others)
           {
-            if (Distance(centre, m_First[other]) < own * RadiusAt(other))
+            if (Distance(centre, other.place) < own * Least(other.radius))
             {
               return std::nullopt;
             }
@@ -313,8 +324,8 @@ private:
   const std::vector<double> & m_Radii;
   std::vector<ElementIndex>   m_Owner;  ///< per point its root
   double                      m_Widest; ///< radius of any
-  PointCells                  m_Thin;
-  PointCells                  m_Thick;
+  BallCells                   m_Thin;
+  BallCells                   m_Thick;
   std::vector<Vector3>        m_First; ///< per point where it was
   std::vector<Vector3>        m_Places;
 };

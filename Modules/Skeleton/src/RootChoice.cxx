@@ -80,6 +80,7 @@ HierarchyChoice::HierarchyChoice(const RootBranches &        branches,
   {
     const ElementIndex branch = arm / 2;
     total += 0.5 * branches.LengthOf(branch);
+    m_PlaceOf.push_back(pairing.contact[branches.HubOf(EndOf(arm))]);
     if (!pairing.inside[branch])
     {
       m_Direction[arm] = branches.DirectionFrom(EndOf(arm));

@@ -69,7 +69,7 @@ public:
   ElementIndex
   PlaceOf(ElementIndex arm) const
   {
-    return m_Pairing.contact[m_Branches.HubOf(EndOf(arm))];
+    return m_PlaceOf[arm];
   }
 
 private:
@@ -95,6 +95,7 @@ private:
   const RootFlow &                       m_Flow;
   const RootPairing &                    m_Pairing;
   std::vector<ElementIndex> &            m_Partner;
+  std::vector<ElementIndex>              m_PlaceOf;   ///< per arm
   std::vector<std::vector<ElementIndex>> m_Arms;      ///< per place
   std::vector<std::vector<ElementIndex>> m_Free;      ///< per place those that may have other partners
   std::vector<Vector3>                   m_Direction; ///< per arm

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace voxelcore
 namespace
 {
 
-constexpr double kWithin = 2; // radii from a root's curve: farther is none of its voxels
+constexpr double      kWithin = 2;   // radii from a root's curve: farther is none of its voxels
+constexpr std::size_t kTogether = 8; // segments of a curve that are looked at from each voxel near them
 
 class WallBuilder
 {
@@ -46,6 +48,37 @@ public:
   }
 
 private:
+  /** The voxels less than `reach` mm from a line, and some more. */
+  VoxelBox
+  Around(std::span<const Vector3> line, double reach) const
+  {
+    Vector3 least{ HUGE_VAL, HUGE_VAL, HUGE_VAL };
+    Vector3 most{ -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    for (const Vector3 & place : line)
+    {
+      const Vector3 there = PhysicalToLattice(m_Geometry, place);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        least[axis] = std::min(least[axis], there[axis]);
+        most[axis] = std::max(most[axis], there[axis]);
+      }
+    }
+    VoxelBox box;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double room = reach / m_Geometry.spacing[axis] + 1;
+      box.lower[axis] = static_cast<std::int32_t>(std::floor(least[axis] - room));
+      box.size[axis] = static_cast<std::int32_t>(std::ceil(most[axis] + room)) - box.lower[axis] + 1;
+    }
+    return box;
+  }
+
+  Vector3
+  MiddleOf(const std::array<std::int32_t, 3> & voxel) const
+  {
+    return LatticeToPhysical(m_Geometry, { voxel[0] + 0.5, voxel[1] + 0.5, voxel[2] + 0.5 });
+  }
+
   /** Voxels along a curve that hang together over faces: the boxes of steps of a quarter of a voxel. What lies between
    *  two voxels is in both, so that a turned scan has the same. */
   template <typename TVisit>
@@ -90,30 +123,30 @@ private:
     {
       room = std::max(room, meeting.reach + kWithin * strand.radius);
     }
-    const Vector3               centre = PhysicalToLattice(m_Geometry, meeting.position);
-    std::array<std::int32_t, 3> lower{};
-    std::array<std::int32_t, 3> size{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double reach = room / m_Geometry.spacing[axis] + 1;
-      lower[axis] = static_cast<std::int32_t>(std::floor(centre[axis] - reach));
-      size[axis] = static_cast<std::int32_t>(std::ceil(centre[axis] + reach)) - lower[axis] + 1;
-    }
-    const auto row = static_cast<std::size_t>(size[0]);
-    const auto plane = row * static_cast<std::size_t>(size[1]);
+    const VoxelBox                   box = Around({ &meeting.position, 1 }, room);
+    const auto &                     lower = box.lower;
+    const auto &                     size = box.size;
+    const auto                       row = static_cast<std::size_t>(size[0]);
+    const auto                       plane = row * static_cast<std::size_t>(size[1]);
+    const std::array<std::size_t, 3> stride{ 1, row, plane };
     // Which strand a voxel belongs to, 255 for none.
     constexpr std::uint8_t    none = 255;
     constexpr std::uint8_t    several = 254;
     std::vector<std::uint8_t> owner(plane * static_cast<std::size_t>(size[2]), none);
     std::vector<float>        away(owner.size(), 0); ///< from its curve, mm, squared
-    const auto                visit = [&](auto && work) {
-      std::size_t at = 0;
-      for (std::int32_t z = 0; z < size[2]; ++z)
+    const auto                visit = [&](const VoxelBox & part, auto && work) {
+      const auto end = [&](std::size_t axis) {
+        return std::min(part.lower[axis] + part.size[axis], lower[axis] + size[axis]);
+      };
+      for (std::int32_t z = std::max(part.lower[2], lower[2]); z < end(2); ++z)
       {
-        for (std::int32_t y = 0; y < size[1]; ++y)
+        for (std::int32_t y = std::max(part.lower[1], lower[1]); y < end(1); ++y)
         {
-          for (std::int32_t x = 0; x < size[0]; ++x, ++at)
+          for (std::int32_t x = std::max(part.lower[0], lower[0]); x < end(0); ++x)
           {
+            const std::size_t at = static_cast<std::size_t>(z - lower[2]) * plane +
+                                   static_cast<std::size_t>(y - lower[1]) * row +
+                                   static_cast<std::size_t>(x - lower[0]);
             work(at, std::array<std::int32_t, 3>{ x, y, z });
           }
         }
@@ -137,33 +170,42 @@ private:
         onCurve[at] = onCurve[at] == none || onCurve[at] == k ? static_cast<std::uint8_t>(k) : several;
       });
     }
-    visit([&](std::size_t at, const std::array<std::int32_t, 3> & v) {
-      if (!m_Shape.Contains(v[0] + lower[0], v[1] + lower[1], v[2] + lower[2]))
+    std::vector<double> nearest(owner.size(), kWithin * kWithin); // in radii, squared
+    std::vector<double> squared(owner.size(), HUGE_VAL);          // of one strand
+    for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), several); ++k)
+    {
+      const auto & line = strands[k].line;
+      const double radius = strands[k].radius;
+      for (std::size_t first = 0; first == 0 ? !line.empty() : first + 1 < line.size(); first += kTogether)
       {
-        return;
+        const std::span part(line.begin() + first, std::min(kTogether + 1, line.size() - first));
+        visit(Around(part, kWithin * radius), [&](std::size_t at, const std::array<std::int32_t, 3> & v) {
+          if (m_Shape.Contains(v[0], v[1], v[2]))
+          {
+            squared[at] = std::min(squared[at], SquaredDistance(MiddleOf(v), part));
+          }
+        });
       }
-      const Vector3 place =
-        LatticeToPhysical(m_Geometry, { v[0] + lower[0] + 0.5, v[1] + lower[1] + 0.5, v[2] + lower[2] + 0.5 });
-      double nearest = kWithin * kWithin;
-      for (std::size_t k = 0; k < std::min<std::size_t>(strands.size(), several); ++k)
+      for (std::size_t at = 0; at < owner.size(); ++at)
       {
-        const double squared = SquaredDistance(place, strands[k].line);
-        const double radii = squared / (strands[k].radius * strands[k].radius);
-        if (radii < nearest)
+        const double radii = squared[at] / (radius * radius);
+        if (radii < nearest[at])
         {
-          nearest = radii;
+          nearest[at] = radii;
           owner[at] = static_cast<std::uint8_t>(k);
-          away[at] = static_cast<float>(squared);
+          away[at] = static_cast<float>(squared[at]);
         }
-        if (onCurve[at] == k)
-        {
-          owner[at] = onCurve[at];
-          away[at] = -1;
-          break;
-        }
+        squared[at] = HUGE_VAL;
+      }
+    }
+    visit(box, [&](std::size_t at, const std::array<std::int32_t, 3> & v) {
+      if (onCurve[at] < several && m_Shape.Contains(v[0], v[1], v[2]))
+      {
+        owner[at] = onCurve[at];
+        away[at] = -1;
       }
     });
-    visit([&](std::size_t at, const std::array<std::int32_t, 3> & v) {
+    visit(box, [&](std::size_t at, const std::array<std::int32_t, 3> & v) {
       if (owner[at] == none)
       {
         return;
@@ -175,12 +217,11 @@ private:
         {
           std::array<std::int32_t, 3> next = v;
           next[axis] += step;
-          if (next[axis] < 0 || next[axis] >= size[axis])
+          if (next[axis] < lower[axis] || next[axis] >= lower[axis] + size[axis])
           {
             continue;
           }
-          const std::size_t beside = static_cast<std::size_t>(next[2]) * plane +
-                                     static_cast<std::size_t>(next[1]) * row + static_cast<std::size_t>(next[0]);
+          const std::size_t beside = step < 0 ? at - stride[axis] : at + stride[axis];
           if (owner[beside] == none || owner[beside] == owner[at])
           {
             continue;
@@ -192,7 +233,7 @@ private:
                                                             (own.radius == other.radius && owner[at] < owner[beside]);
           if (hasWall && !AreKin(m_Roots, own, other))
           {
-            m_Walls.Insert(v[0] + lower[0], v[1] + lower[1], v[2] + lower[2]);
+            m_Walls.Insert(v[0], v[1], v[2]);
           }
         }
       }

@@ -14,9 +14,10 @@ constexpr double kLeastDirection = 2; ///< radii; a shorter stretch has no direc
 // The stem.
 constexpr double kStemReach =
   1.7; ///< its radii within which roots of a whorl may run fused and still spring from it; 1.2: 3 % less (plants)
-constexpr double kStemLikeness = 0.5; ///< thinner over thicker of branches that follow each other in it (plants)
-constexpr double kLeastOfStems = 0.6; ///< thickness of a further stem over the first's
-constexpr double kUpperPart = 0.25;   ///< of the plant's height, in which further stems begin
+constexpr double kStemLikeness = 0.5;  ///< thinner over thicker of branches that follow each other in it (plants)
+constexpr double kStraightReach = 2.5; ///< radii over which it turns or not; by branches of nodes: top missed (maize)
+constexpr double kLeastOfStems = 0.6;  ///< thickness of a further stem over the first's
+constexpr double kUpperPart = 0.25;    ///< of the plant's height, in which further stems begin
 
 // What it costs to run from branch to branch. To turn back costs 1. With these, 57 % of the published crown's length is
 // on its level; with thinning 0.5, 55 %, and with length 0.03, 51 % (plants).

@@ -1,6 +1,7 @@
 #include "RootStem.h"
 
 #include "RootNumbers.h"
+#include "UnitVector.h"
 
 #include "voxelcore/UnionFind.h"
 
@@ -199,7 +200,7 @@ private:
       {
         open.push_back(next);
       }
-      const double value = beyond * 0.5 * (1 + m_Branches.Straightness(far, next));
+      const double value = beyond < 0 ? beyond : beyond * 0.5 * (1 + Straightness(far, next));
       if (value > best)
       {
         best = value;
@@ -213,6 +214,32 @@ private:
     m_Best[now.branch][now.last] = m_Worth[now.branch] + best;
     m_Next[now.branch][now.last] = follows;
     return false;
+  }
+
+  /** cos(turn) from a branch that arrives to where the best way from another on leads beyond the ball there. What lies
+   *  within a ball turns as it likes: 1. */
+  double
+  Straightness(const BranchEnd & arrives, const BranchEnd & leaves) const
+  {
+    const double ball = m_Branches.BallAt(arrives);
+    if (m_Branches.LengthOf(arrives.branch) < ball)
+    {
+      return 1;
+    }
+    const auto &             positions = m_Branches.Graph().positions;
+    const Vector3 &          start = positions[m_Branches.PointFrom(arrives, 0)];
+    Vector3                  ahead = start;
+    std::optional<BranchEnd> way = leaves;
+    for (std::size_t i = 0; way && Distance(ahead, start) < kStraightReach * ball; ++i)
+    {
+      ahead = positions[m_Branches.PointFrom(*way, i)];
+      if (i + 1 == m_Branches.Graph().Branch(way->branch).size())
+      {
+        way = m_Next[way->branch][way->last];
+        i = 0;
+      }
+    }
+    return -Dot(m_Branches.DirectionFrom(arrives), Unit(Minus(ahead, start)));
   }
 
   bool

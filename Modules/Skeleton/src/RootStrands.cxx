@@ -291,7 +291,7 @@ AreKin(const RootHierarchy & roots, const Strand & a, const Strand & b)
 }
 
 double
-SquaredDistance(const Vector3 & place, const std::vector<Vector3> & line)
+SquaredDistance(const Vector3 & place, std::span<const Vector3> line)
 {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < line.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include "voxelcore/RootHierarchy.h"
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,6 @@ AreKin(const RootHierarchy & roots, const Strand & a, const Strand & b);
 
 /** The square of the distance from a place to a line. */
 double
-SquaredDistance(const Vector3 & place, const std::vector<Vector3> & line);
+SquaredDistance(const Vector3 & place, std::span<const Vector3> line);
 
 } // namespace voxelcore

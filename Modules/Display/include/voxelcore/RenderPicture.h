@@ -28,6 +28,7 @@ struct PictureOptions
   PictureView                          view = PictureView::Auto;
   PictureColoring                      coloring = PictureColoring::Radius;
   bool                                 dark = false;
+  std::string                          title;          ///< of the whole, above it; none with panels
   bool                                 panels = false; ///< side by side: surface, medial surface, curve skeleton
   double                               tubes = 0.3;    ///< radius of a curve's tube, in radii of the shape
   std::optional<std::array<double, 2>> range;          ///< mm that the colour map runs over; else `shares`

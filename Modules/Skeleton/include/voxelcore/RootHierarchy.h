@@ -5,10 +5,11 @@
 // The rules, in the order they apply:
 // 1. Up. Given, or the coordinate axis along which the base of the stem lies farthest from the skeleton's centre.
 // 2. Stems. The thickest long way through the skeleton: of all ways in the forest of its widest branches, the one with
-//    the greatest sum of length times radius to the third power, the less the more it turns where others leave. It goes
-//    on as long as neither branch is half as thick as the other. Its base is the end that is thicker and farther from
-//    the skeleton's middle, or higher where up is given. `stem` says where it begins and what it passes. More are
-//    taken as asked; to find how many there are, those with 0.6 of its thickness that begin in the upper quarter count.
+//    the greatest sum of length times radius to the third power, the less the more it turns beyond the balls of nodes.
+//    It goes on as long as neither branch is half as thick as the other. Its base is the end that is thicker and
+//    farther from the skeleton's middle, or higher where up is given. `stem` says where it begins and what it passes.
+//    More are taken as asked; to find how many there are, those with 0.6 of its thickness that begin in the upper
+//    quarter count.
 // 3. Flow. Every branch is run through in the direction in which the way from a stem is cheapest: to turn and to thin
 //    costs, so does to spring from a side, and a little does length; next to a stem only length does. Where a branch
 //    arrives at a junction that another reached before, there is a loop: two roots touch.
@@ -19,8 +20,9 @@
 //    outside the contact. The search begins where the branch goes on beyond which most junctions lie, of several such
 //    the longest; in contacts, with the straightest. A branch that does not go on as another springs from what passes
 //    where it begins, of several such from the one of the least level, a level further out; within 1.7 radii of a
-//    stem, where roots of a whorl run fused, from the stem. The stem has level 0. Where the next best choice is worse
-//    by less than `undecided`, a contact is marked.
+//    stem, where roots of a whorl run fused, from the stem. The stem has level 0. What ends at another root, without
+//    laterals, and is no longer than bridgeLength times twice the thinner of the two is a bridge. Where the next best
+//    choice is worse by less than `undecided`, a contact is marked.
 // 6. Whorls. Laterals of a stem whose places along it follow each other by less than `whorlGap` stem radii form one if
 //    there are `whorlSize` of them or more.
 // Pieces that hang together with no stem have one of their own, marked as loose. `leftOut` says what is on no root.
@@ -46,7 +48,7 @@ struct RootRules
   double                 tornGap = 2;        ///< longest gap in a torn root, in sums of the radii at its ends; 0: none
   double                 tornSlack = 0;      ///< mm: so much longer where slices are so thick
   double                 bulge = 4;          ///< what stands out by less than so many times the roughness is none
-  double                 undecided = 0.15;   ///< margin below which a contact is marked
+  double                 undecided = 0.15;   ///< margin in costs of RootNumbers.h below which a contact is marked
   double                 whorlGap = 1;       ///< in radii of the stem
   int                    whorlSize = 3;
 };
