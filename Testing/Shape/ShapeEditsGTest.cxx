@@ -91,6 +91,23 @@ TEST(ShapeEdits, GapsCloseBeforeHollowsSlicesAndCavitiesAreFilled)
   EXPECT_THROW(EditLabels({ Label(1, halves) }, inVoxels, options, true, "a.nrrd"), InputError);
 }
 
+TEST(ShapeEdits, ALumenThatTheBorderCutsIsClosedThereUnlessNothingIsCut)
+{
+  ImageGeometry tight;
+  tight.size = { 9, 9, 9 };
+  const auto cup =
+    ShapeWhere({ 9, 9, 9 }, [](int x, int y, int z) { return !(x >= 2 && x < 7 && y >= 2 && y < 7 && z < 7); });
+  ShapeEditOptions options;
+  options.fillHollows = ParseGapWidth("2vox");
+  const auto filled = [&](const ImageGeometry & geometry) {
+    return EditLabels({ Label(1, cup) }, geometry, options, true, "a.nrrd").labels.at(0).label.voxels;
+  };
+  EXPECT_EQ(filled(tight), 729U);
+  options.openAtBorder = true;
+  EXPECT_EQ(filled(tight), cup.CountVoxels());
+  EXPECT_EQ(filled(tight), filled(kGeometry)) << "as with room around";
+}
+
 TEST(ShapeEdits, ComponentsAreNumberedBySize)
 {
   ShapeEditOptions options;

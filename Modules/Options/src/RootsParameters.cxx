@@ -59,6 +59,7 @@ RootsOptionsFrom(const ParameterValues & values)
   options.keepLoops = reader.IsSet("keep-loops");
   options.stage = BurningFrom(values, command);
   options.stage.border = BorderFrom(reader);
+  options.edits.openAtBorder = options.stage.border == BorderEnds::Closed;
   options.stage.lambda.text = "0";
   options.rules.up = ParseUp(reader.Text("up"));
   options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));

@@ -208,16 +208,18 @@ ReadValue(const Json & json, std::optional<T> & value)
   }
 }
 
-constexpr const char * kJoinTorn = "join_torn"; // no option: `roots` asks for it by itself
+// No options: `roots` asks for them by itself.
+constexpr const char * kJoinTorn = "join_torn";
+constexpr const char * kOpenAtBorder = "open_at_border";
 
 /** Written only where they are set: what meshes or some formats alone have, and what few ask for. */
 bool
 IsOfSome(std::string_view name)
 {
   return name == "resolution" || name == "level" || name == "raw" || name == "close" || name == "fill_hollows" ||
-         name == "fill_slices" || name == "connectivity" || name == "median" || name == "denoise" ||
-         name == "simplify_topology" || name == "pieces" || name == "loops" || name == "cavities" ||
-         name == "change_voxels" || name == kJoinTorn;
+         name == kOpenAtBorder || name == "fill_slices" || name == "connectivity" || name == "median" ||
+         name == "denoise" || name == "simplify_topology" || name == "pieces" || name == "loops" ||
+         name == "cavities" || name == "change_voxels" || name == kJoinTorn;
 }
 
 /** Writes fields. */
@@ -283,6 +285,7 @@ ParametersJson(const ParameterRecord & parameters, bool inFile)
   json["labels"] = parameters.labels;
   VisitScanFields(parameters, write);
   write(kJoinTorn, parameters.edits.joinTorn);
+  write(kOpenAtBorder, parameters.edits.openAtBorder);
   json["lambda"] = parameters.lambda;
   if (!parameters.tolerances.empty())
   {
@@ -334,6 +337,7 @@ ReadParameters(const nlohmann::ordered_json & json)
   read("labels", parameters.labels);
   VisitScanFields(parameters, read);
   read(kJoinTorn, parameters.edits.joinTorn);
+  read(kOpenAtBorder, parameters.edits.openAtBorder);
   read("lambda", parameters.lambda);
   parameters.tolerances = json.value("tolerance", std::vector<std::string>());
   parameters.refine.surface = json.value("refine", std::string());

@@ -199,8 +199,10 @@ EditShape(VoxelShape &             shape,
   const ProgressCallback hollows = plan.Next();
   if (options.fillHollows)
   {
-    record.hollows =
-      takeFilled(FillHollows(give(), BallOfDiameter(*options.fillHollows, geometry), hollows, geometry.size));
+    record.hollows = takeFilled(FillHollows(give(),
+                                            BallOfDiameter(*options.fillHollows, geometry),
+                                            hollows,
+                                            options.openAtBorder ? std::nullopt : std::optional(geometry.size)));
   }
   const ProgressCallback slices = plan.Next();
   if (options.fillSlices)

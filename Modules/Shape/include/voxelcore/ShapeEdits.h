@@ -31,6 +31,7 @@ struct ShapeEditOptions
   bool                         mend = false;                     ///< what flips of single voxels have torn or pierced
   std::optional<GapWidth>      close;                            ///< gaps up to so wide
   std::optional<GapWidth>      fillHollows;                      ///< lumens that open only through holes up to so wide
+  bool                         openAtBorder = false;             ///< the scan's border closes none of these lumens
   std::optional<SliceAxis>     fillSlices;                       ///< holes of the slices across this axis
   Connectivity                 connectivity = Connectivity::Six; ///< by which the mask is read
   bool                         fillCavities = false;
