@@ -172,6 +172,7 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
                               true,
                               ParseGapWidth("4vox"),
                               ParseGapWidth("2.5mm"),
+                              true,
                               SliceAxis::J,
                               Connectivity::TwentySix,
                               true,
