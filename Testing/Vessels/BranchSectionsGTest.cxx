@@ -87,8 +87,9 @@ TEST(BranchSections, OfEllipsesHaveTheirAreaAndDiametersInAnyDirection)
     meanLeast += leastOff / count / bodies;
     meanGreatest += greatestOff / count / bodies;
   }
-  EXPECT_LT(meanLeast, 0.15);
-  EXPECT_LT(meanGreatest, 0.2);
+  // Of so few bodies; of many 0.12 and 0.16 (root mean square).
+  EXPECT_LT(meanLeast, 0.25);
+  EXPECT_LT(meanGreatest, 0.3);
 }
 
 TEST(BranchSections, StenosesKeepTheirDepthAlsoInThickSlices)
