@@ -83,7 +83,8 @@ TEST(BranchVoxels, BelongToTheBranchWhoseBallsAreNearest)
   std::cout << "seed " << seed << '\n';
   std::mt19937_64 random(seed);
   MeasuredBody    body = ThreeTubes(random);
-  for (int more = 0; more < 20 && body.graph.BranchCount() != 3; ++more) // some turns of the grid give short branches more
+  // Some turns of the grid give short branches more.
+  for (int more = 0; more < 20 && body.graph.BranchCount() != 3; ++more)
   {
     body = ThreeTubes(random);
   }

@@ -47,9 +47,9 @@ TEST(VesselLesions, StenosesHaveTheirDegreePlaceAndLength)
   const auto      within = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
   for (int body = 0; body < 3; ++body)
   {
-    const double       radius = within(5, 8);
-    const double       depth = within(0.3, 0.7);
-    const double       sigma = within(3, 6);
+    const double radius = within(5, 8);
+    const double depth = within(0.3, 0.7);
+    const double sigma = within(3, 6);
     // So that two thirds of the branch are healthy: where half is ill, the reference may follow that.
     const double       length = 20 * sigma + 2 * radius;
     const double       at = within(-2, 2) * sigma;
