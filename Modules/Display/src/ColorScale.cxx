@@ -35,8 +35,9 @@ MakeTable(const ColorRange & range)
 } // namespace
 
 ColorScale::ColorScale(const DisplayContent & content, const PictureOptions & options)
-  : m_Range(RangeOfLabels(content.labels, options.coloring, options.shares))
 {
+  const LabelRanges ranges = RangesOfLabels(content.labels, options.coloring, options.shares);
+  m_Range = ranges.all;
   if (!IsShown())
   {
     return;
@@ -46,19 +47,14 @@ ColorScale::ColorScale(const DisplayContent & content, const PictureOptions & op
     m_Range.low = (*options.range)[0];
     m_Range.high = (*options.range)[1];
   }
-  std::vector<LabelRange> ranges;
-  for (const DisplayLabel & label : content.labels)
-  {
-    ranges.push_back(RangeOfLabel(ShownValues(label, options.coloring), options.shares));
-  }
-  const bool eachLabel = options.eachLabel.value_or(!options.range && NeedOwnRanges(ranges, m_Range));
+  const bool eachLabel = options.eachLabel.value_or(!options.range && NeedOwnRanges(ranges.each, m_Range));
   m_Bar = DescribeColorBar(options, m_Range, eachLabel, content.unit);
   if (!eachLabel)
   {
     m_Tables = { MakeTable(m_Range) };
     return;
   }
-  for (const LabelRange & label : ranges)
+  for (const LabelRange & label : ranges.each)
   {
     m_Tables.push_back(MakeTable(label.range));
   }

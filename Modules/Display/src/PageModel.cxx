@@ -206,25 +206,15 @@ private:
     const std::size_t count = m_Content.labels.size();
     for (std::size_t i = 0; i < kArrays.size(); ++i)
     {
-      std::vector<std::vector<WeightedValue>> values(count);
-      std::vector<LabelRange>                 ofLabels(count);
-      RunEach(count, [&](std::size_t k) {
-        values[k] = ShownValues(m_Content.labels[k], kColorings[i]);
-        ofLabels[k] = RangeOfLabel(values[k]);
-        m_LabelRanges[k][i] = ofLabels[k].range;
-      });
-      std::vector<WeightedValue> all;
-      for (const auto & some : values)
-      {
-        all.insert(all.end(), some.begin(), some.end());
-      }
-      m_Ranges[i] = RangeOfShares(std::move(all));
-      if (NeedOwnRanges(ofLabels, m_Ranges[i]))
+      const LabelRanges ranges = RangesOfLabels(m_Content.labels, kColorings[i]);
+      m_Ranges[i] = ranges.all;
+      if (NeedOwnRanges(ranges.each, ranges.all))
       {
         m_OwnRanges.push_back(kArrays[i]);
       }
       for (std::size_t k = 0; k < count; ++k)
       {
+        m_LabelRanges[k][i] = ranges.each[k].range;
         for (const ValueArrays & arrays : { MedialArrays(m_Content.labels[k]), CurveArrays(m_Content.labels[k]) })
         {
           if (arrays[i] != nullptr)

@@ -191,9 +191,15 @@ private:
       if (!label.surface.triangles.empty())
       {
         const bool isGlass = !m_Options.panels && (m_HasMedial || m_HasCurves);
-        ShownMesh  fewer = isGlass ? SimplifiedSurface(label.surface, kMostOfGlass) : ShownMesh();
-        meshes.surface = SurfacePolyData(
-          isGlass ? LabelSurfaceMesh{ std::move(fewer.points), std::move(fewer.triangles) } : label.surface);
+        if (isGlass && label.surface.triangles.size() > kMostOfGlass)
+        {
+          ShownMesh fewer = SimplifiedSurface(label.surface, kMostOfGlass);
+          meshes.surface = SurfacePolyData({ std::move(fewer.points), std::move(fewer.triangles) });
+        }
+        else
+        {
+          meshes.surface = SurfacePolyData(label.surface);
+        }
       }
       if (label.medial.core.cells.vertexCount > 0)
       {

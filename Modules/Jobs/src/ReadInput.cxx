@@ -127,11 +127,17 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
 VoxelBox
 PartRead(const LabelMap & volume)
 {
+  return PartRead(volume.crop, volume.geometry);
+}
+
+VoxelBox
+PartRead(const std::optional<CropRange> & crop, const ImageGeometry & geometry)
+{
   VoxelBox box;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    box.lower[axis] = volume.crop ? volume.crop->first[axis] : 0;
-    const auto end = volume.crop ? volume.crop->end[axis] : static_cast<std::int32_t>(volume.geometry.size[axis]);
+    box.lower[axis] = crop ? crop->first[axis] : 0;
+    const auto end = crop ? crop->end[axis] : static_cast<std::int32_t>(geometry.size[axis]);
     box.size[axis] = end - box.lower[axis];
   }
   return box;

@@ -4,6 +4,7 @@
 
 #include "voxelcore/BranchVoxels.h"
 #include "voxelcore/GreyVolume.h"
+#include "voxelcore/LabelContacts.h"
 #include "voxelcore/LabelVolume.h"
 #include "voxelcore/LambdaPruning.h"
 #include "voxelcore/OutputFile.h"
@@ -22,29 +23,6 @@ fs::path
 WithEnding(const fs::path & stem, const char * ending)
 {
   return stem.string() + ending;
-}
-
-/** Of two shapes in the same box, word by word. */
-template <typename Operation>
-void
-Combine(VoxelShape & own, const VoxelShape & other, const Operation & operation)
-{
-  const auto & size = own.Box().size;
-  for (std::int32_t z = 0; z < size[2]; ++z)
-  {
-    for (std::int32_t y = 0; y < size[1]; ++y)
-    {
-      auto       to = own.Row(y, z);
-      const auto from = other.Row(y, z);
-      for (std::size_t word = 0; word < from.size(); ++word)
-      {
-        if (from[word] != 0)
-        {
-          to[word] = operation(to[word], from[word]);
-        }
-      }
-    }
-  }
 }
 
 } // namespace
@@ -160,26 +138,11 @@ SkeletonBodies::AddMaps(const SkeletonPart & part, const VoxelShape & shape)
   {
     return;
   }
-  VoxelBox whole;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    whole.size[k] = static_cast<std::int32_t>(m_Geometry.size[k]);
-  }
   for (const SkeletonPart & one : part.network ? PartsByLabel(part) : std::vector{ part })
   {
-    VoxelShape lines(whole);
+    VoxelShape lines(shape.Box());
     AddSkeletonVoxels(one.graph, shape, m_Geometry, lines);
-    // Labels may overlap: then the first has the voxel.
-    for (const auto & [label, others] : m_Lines)
-    {
-      if (label != one.label)
-      {
-        Combine(lines, others, [](std::uint64_t own, std::uint64_t other) { return own & ~other; });
-      }
-    }
-    Combine(m_Lines.try_emplace(one.label, whole).first->second, lines, [](std::uint64_t own, std::uint64_t other) {
-      return own | other;
-    });
+    m_Lines.push_back({ one.label, one.name, lines.CountVoxels(), std::move(lines) });
   }
 }
 
@@ -214,14 +177,9 @@ SkeletonBodies::WriteMaps()
   }
   if (m_Targets.skeletonMap)
   {
-    std::vector<LabelShape> labels;
-    for (auto & [value, shape] : m_Lines)
-    {
-      labels.emplace_back();
-      labels.back().value = value;
-      labels.back().shape = std::move(shape);
-    }
-    WriteLabelVolume(m_Transaction.StageWithCompanions(*m_Targets.skeletonMap), m_Geometry, labels);
+    WriteLabelVolume(m_Transaction.StageWithCompanions(*m_Targets.skeletonMap),
+                     m_Geometry,
+                     WithoutSharedVoxels(std::move(m_Lines)));
   }
 }
 

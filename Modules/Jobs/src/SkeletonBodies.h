@@ -70,9 +70,9 @@ private:
   SkeletonRequest                                             m_Request;
   std::vector<SectionsOfPart>                                 m_Sections;
 
-  std::vector<Mapped>                m_Mapped;
-  std::uint32_t                      m_Rows = 0; ///< branches so far
-  std::map<std::int64_t, VoxelShape> m_Lines;    ///< by label, each in a box of the scan's size
+  std::vector<Mapped>     m_Mapped;
+  std::uint32_t           m_Rows = 0; ///< branches so far
+  std::vector<LabelShape> m_Lines;    ///< where skeletons run; of a voxel that several hold, the first is written
 };
 
 } // namespace voxelcore

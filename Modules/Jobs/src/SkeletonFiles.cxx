@@ -5,6 +5,7 @@
 #include "voxelcore/FlowFiles.h"
 #include "voxelcore/LengthUnit.h"
 #include "voxelcore/OutputNames.h"
+#include "voxelcore/ReadInput.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -122,6 +123,12 @@ SkeletonFiles::IsFlowJson() const
   return m_Targets.flow->extension() == ".json";
 }
 
+fs::path
+SkeletonFiles::BesideFlow(const char * ending) const
+{
+  return (m_Targets.flow->parent_path() / m_Targets.flow->stem()).string() + ending;
+}
+
 std::vector<fs::path>
 SkeletonFiles::FlowTargets() const
 {
@@ -133,11 +140,10 @@ SkeletonFiles::FlowTargets() const
   if (m_Targets.flow)
   {
     targets.push_back(*m_Targets.flow);
-    const std::string stem = (m_Targets.flow->parent_path() / m_Targets.flow->stem()).string();
     if (!IsFlowJson())
     {
-      targets.emplace_back(stem + "_nodes.csv");
-      targets.emplace_back(stem + "_columns.json");
+      targets.push_back(BesideFlow("_nodes.csv"));
+      targets.push_back(BesideFlow("_columns.json"));
     }
   }
   return targets;
@@ -163,37 +169,27 @@ SkeletonFiles::WriteFlow(const CoreReport & report)
   InletChoice choice{ m_Targets.inlets, report.input.geometry };
   if (report.skeleton && report.skeleton->border != BorderEnds::Closed)
   {
-    const auto & crop = report.parameters.reading.crop;
-    choice.border.emplace();
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const std::int64_t first = crop ? crop->first[k] : 0;
-      const std::int64_t end = crop ? std::int64_t{ crop->end[k] } : report.input.geometry.size[k];
-      choice.border->lower[k] = static_cast<std::int32_t>(first);
-      choice.border->size[k] = static_cast<std::int32_t>(end - first);
-    }
+    choice.border = PartRead(report.parameters.reading.crop, report.input.geometry);
   }
   const auto inlets = FindInlets(m_Model.parts, choice);
-  const auto targets = FlowTargets();
   if (m_Targets.centerlines)
   {
-    WriteCenterlineVtp(m_Transaction.Stage(targets[0]), SplitCenterlines(m_Model.parts, inlets), m_Model.unit);
+    WriteCenterlineVtp(m_Transaction.Stage(*m_Targets.centerlines),
+                       SplitCenterlines(m_Model.parts, inlets),
+                       m_Model.unit);
   }
   if (m_Targets.flow)
   {
     const FlowNetwork network = MakeFlowNetwork(m_Model.parts, inlets);
+    const fs::path    target = m_Transaction.Stage(*m_Targets.flow);
     if (IsFlowJson())
     {
-      WriteFlowJson(m_Transaction.Stage(targets.back()), network, m_Model.parts);
+      WriteFlowJson(target, network, m_Model.parts);
     }
     else
     {
-      const std::size_t nodes = targets.size() - 2;
-      WriteFlowCsv(m_Transaction.Stage(targets[nodes - 1]),
-                   m_Transaction.Stage(targets[nodes]),
-                   network,
-                   m_Model.parts);
-      WriteTextFile(m_Transaction.Stage(targets.back()), FlowColumnsJson(m_Model.unit));
+      WriteFlowCsv(target, m_Transaction.Stage(BesideFlow("_nodes.csv")), network, m_Model.parts);
+      WriteTextFile(m_Transaction.Stage(BesideFlow("_columns.json")), FlowColumnsJson(m_Model.unit));
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "voxelcore/ColorRange.h"
 
+#include "voxelcore/ParallelTasks.h"
 #include "voxelcore/PolygonArea.h"
 
 #include <algorithm>
@@ -219,16 +220,29 @@ NeedOwnRanges(std::span<const LabelRange> labels, const ColorRange & all)
   return sum > 0 && 2 * narrow >= sum;
 }
 
+LabelRanges
+RangesOfLabels(std::span<const DisplayLabel> labels, PictureColoring coloring, const ColorShares & shares)
+{
+  LabelRanges ranges;
+  ranges.each.resize(labels.size());
+  std::vector<std::vector<WeightedValue>> values(labels.size());
+  RunEach(labels.size(), [&](std::size_t i) {
+    values[i] = ShownValues(labels[i], coloring);
+    ranges.each[i] = RangeOfLabel(values[i], shares);
+  });
+  std::vector<WeightedValue> all;
+  for (const auto & some : values)
+  {
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  ranges.all = RangeOfShares(std::move(all), shares);
+  return ranges;
+}
+
 ColorRange
 RangeOfLabels(std::span<const DisplayLabel> labels, PictureColoring coloring, const ColorShares & shares)
 {
-  std::vector<WeightedValue> values;
-  for (const DisplayLabel & label : labels)
-  {
-    const auto more = ShownValues(label, coloring);
-    values.insert(values.end(), more.begin(), more.end());
-  }
-  return RangeOfShares(std::move(values), shares);
+  return RangesOfLabels(labels, coloring, shares).all;
 }
 
 } // namespace voxelcore

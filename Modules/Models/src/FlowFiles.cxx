@@ -19,10 +19,10 @@ namespace
 
 constexpr auto kSegmentColumns = std::to_array<Column>({
   { "segment", "", "number of the segment, from 0" },
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
-  { "branch_id", "", "number of the branch, the cell array BranchId" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
+  kBranchIdColumn,
   { "from_node", "", "node nearer to the inlet along the tree of thickest branches; in loops flow may go either way" },
   { "to_node", "", "node at its other end" },
   { "length", "mm", "along the branch" },

@@ -14,10 +14,10 @@ namespace
 {
 
 constexpr auto kSectionColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
-  { "branch_id", "", "number of the branch, the cell array BranchId" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
+  kBranchIdColumn,
   { "arc_length", "mm", "along the branch from its first point" },
   { "place_x", "mm", "on the branch, LPS" },
   { "place_y", "mm", "" },
@@ -45,9 +45,9 @@ constexpr auto kSectionColumns = std::to_array<Column>({
 });
 
 constexpr auto kLesionColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
   { "branch_id", "", "number of the branch, the cell array BranchId; of a dome: the one that leads into it" },
   { "kind", "", "stenosis, bulge (ectasia or fusiform aneurysm), or dome (saccular aneurysm)" },
   { "arc_length", "mm", "along the branch, of the least or greatest diameter; of a dome, of its neck" },

@@ -13,9 +13,9 @@ namespace
 {
 
 constexpr auto kSheetColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
   { "sheet_id", "", "number of the sheet or rod, the cell array SheetId and the value in --voxels" },
   { "kind", "", "sheet or rod" },
   { "area", "mm^2", "of the medial surface, without the fins that were passed over; empty for a rod" },
@@ -34,9 +34,9 @@ constexpr auto kSheetColumns = std::to_array<Column>({
 });
 
 constexpr auto kSeamColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
   { "seam_id", "", "number of the seam or rod, the cell array SeamId" },
   { "kind", "", "seam or rod" },
   { "length", "mm", "along it; where it is a strip between two edges, half of both" },

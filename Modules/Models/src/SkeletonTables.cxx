@@ -13,10 +13,10 @@ namespace
 
 // skan's names where it has the number.
 constexpr auto kBranchColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
-  { "branch_id", "", "number of the branch, the cell array BranchId" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
+  kBranchIdColumn,
   { "skeleton_id", "", "connected component of the skeleton, from 1" },
   { "node_id_src", "", "node at the branch's first point" },
   { "node_id_dst", "", "node at its last point" },
@@ -57,9 +57,9 @@ constexpr auto kBranchColumns = std::to_array<Column>({
 
 // AnalyzeSkeleton's names where it has the number.
 constexpr auto kSummaryColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
   { "level", "", "level of the hierarchy, or 'all'" },
   { "count", "", "axes of this level; for 'all' branches (# Branches)" },
   { "total_length", "mm", "sum of their lengths; a lateral begins at its parent's surface" },

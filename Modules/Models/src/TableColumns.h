@@ -20,6 +20,12 @@ struct Column
   const char * meaning;
 };
 
+// What many tables begin with.
+constexpr Column kLabelColumn{ "label", "", "value of the label" };
+constexpr Column kNameColumn{ "name", "", "name of the label" };
+constexpr Column kPartColumn{ "part", "", "component of a label that was split, from 1; 0: the whole label" };
+constexpr Column kBranchIdColumn{ "branch_id", "", "number of the branch, the cell array BranchId" };
+
 template <typename Columns>
 void
 WriteHead(TextFile & file, const Columns & columns)

@@ -13,9 +13,9 @@ namespace
 {
 
 constexpr auto kNumberColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
   { "of", "", "thickness: of the label; separation: of the background inside the region asked for" },
   { "voxels", "", "voxels that count" },
   { "volume", "mm^3", "theirs" },
@@ -38,9 +38,9 @@ constexpr auto kNumberColumns = std::to_array<Column>({
 });
 
 constexpr auto kHistogramColumns = std::to_array<Column>({
-  { "label", "", "value of the label" },
-  { "name", "", "name of the label" },
-  { "part", "", "component of a label that was split, from 1; 0: the whole label" },
+  kLabelColumn,
+  kNameColumn,
+  kPartColumn,
   { "of", "", "thickness or separation, as in the other table" },
   { "from", "mm", "least thickness of the bin" },
   { "to", "mm", "thickness below which the bin ends" },

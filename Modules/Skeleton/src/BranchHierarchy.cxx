@@ -1,6 +1,6 @@
 #include "BranchHierarchy.h"
 
-
+#include "voxelcore/LoopClosers.h"
 #include "voxelcore/UnionFind.h"
 #include "voxelcore/Vectors.h"
 
@@ -58,37 +58,19 @@ private:
   void
   ChooseTree()
   {
-    const std::size_t count = m_Graph.BranchCount();
     m_HubBranches.resize(m_Hubs.empty() ? 0 : *std::max_element(m_Hubs.begin(), m_Hubs.end()) + std::size_t{ 1 });
-    std::vector<ElementIndex> order(count);
-    std::vector<double>       least(count);
-    std::iota(order.begin(), order.end(), 0U);
-    for (std::size_t branch = 0; branch < count; ++branch)
-    {
-      least[branch] = std::numeric_limits<double>::infinity();
-      for (const ElementIndex point : m_Graph.Branch(branch))
-      {
-        least[branch] = std::min(least[branch], m_Graph.radius[point]);
-      }
-      for (const std::uint8_t last : { std::uint8_t{ 0 }, std::uint8_t{ 1 } })
-      {
-        m_HubBranches[m_Hubs[m_Graph.branchNodes[branch][last]]].push_back({ static_cast<ElementIndex>(branch), last });
-      }
-    }
-    std::stable_sort(order.begin(), order.end(), [&](ElementIndex a, ElementIndex b) { return least[a] > least[b]; });
-    UnionFind trees(m_HubBranches.size());
-    for (const ElementIndex branch : order)
+    const std::vector<std::uint8_t> closes = FindLoopClosers(m_Graph, m_Hubs, LeastRadii(m_Graph));
+    UnionFind                       trees(m_HubBranches.size());
+    for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
     {
       const auto & nodes = m_Graph.branchNodes[branch];
-      if (trees.Find(m_Hubs[nodes[0]]) == trees.Find(m_Hubs[nodes[1]]))
+      for (const std::uint8_t last : { std::uint8_t{ 0 }, std::uint8_t{ 1 } })
       {
-        m_Table.branches[branch].closesLoop = true;
-        ++m_Table.numbers.cycles;
+        m_HubBranches[m_Hubs[nodes[last]]].push_back({ static_cast<ElementIndex>(branch), last });
       }
-      else
-      {
-        trees.Unite(m_Hubs[nodes[0]], m_Hubs[nodes[1]]);
-      }
+      trees.Unite(m_Hubs[nodes[0]], m_Hubs[nodes[1]]);
+      m_Table.branches[branch].closesLoop = closes[branch] != 0;
+      m_Table.numbers.cycles += closes[branch];
     }
     for (std::size_t node = 0; node < m_Hubs.size(); ++node)
     {

@@ -1,4 +1,5 @@
 #include "GraphLines.h"
+#include "voxelcore/LoopClosers.h"
 #include "voxelcore/UnionFind.h"
 #include "voxelcore/Vectors.h"
 
@@ -13,38 +14,9 @@ namespace voxelcore
 std::vector<LoopCut>
 CutLoops(SkeletonGraph & graph)
 {
-  const std::vector<ElementIndex> hubs = NodeHubs(graph);
-  std::vector<ElementIndex>       thickFirst(graph.BranchCount());
-  std::vector<double>             thickness(graph.BranchCount());
-  std::iota(thickFirst.begin(), thickFirst.end(), 0U);
-  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-  {
-    double least = graph.radius[graph.Branch(branch).front()];
-    for (const ElementIndex point : graph.Branch(branch))
-    {
-      least = std::min(least, graph.radius[point]);
-    }
-    thickness[branch] = least;
-  }
-  std::stable_sort(thickFirst.begin(), thickFirst.end(), [&](ElementIndex a, ElementIndex b) {
-    return thickness[a] > thickness[b];
-  });
-  UnionFind                 trees(hubs.size());
-  std::vector<std::uint8_t> cut(graph.BranchCount(), 0);
-  for (const ElementIndex branch : thickFirst)
-  {
-    const auto & nodes = graph.branchNodes[branch];
-    if (trees.Find(hubs[nodes[0]]) == trees.Find(hubs[nodes[1]]))
-    {
-      cut[branch] = 1;
-    }
-    else
-    {
-      trees.Unite(hubs[nodes[0]], hubs[nodes[1]]);
-    }
-  }
-  std::vector<LoopCut> cuts;
-  GraphLines           lines;
+  const std::vector<std::uint8_t> cut = FindLoopClosers(graph, NodeHubs(graph), LeastRadii(graph));
+  std::vector<LoopCut>            cuts;
+  GraphLines                      lines;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
     std::vector<ElementIndex> line(graph.Branch(branch).begin(), graph.Branch(branch).end());

@@ -101,15 +101,12 @@ public:
     : m_Graph(part.graph)
     , m_Tree(tree)
     , m_Leading(part.graph.nodePoints.size())
-    , m_LeadsToTip(part.graph.nodePoints.size(), 0)
     , m_Blanked(static_cast<ElementIndex>(part.graph.nodePoints.size()))
   {
     for (auto node = tree.order.rbegin(); node != tree.order.rend(); ++node)
     {
-      m_LeadsToTip[*node] = IsEnd(*node) ? std::uint8_t{ 1 } : m_LeadsToTip[*node];
-      if (tree.into[*node] != kNoBranch && m_LeadsToTip[*node] != 0)
+      if (IsEnd(*node) || (tree.into[*node] != kNoBranch && !m_Leading[*node].empty()))
       {
-        m_LeadsToTip[Before(*node)] = 1;
         m_Leading[Before(*node)].push_back(*node);
       }
     }
@@ -360,7 +357,6 @@ private:
   const SkeletonGraph &                  m_Graph;
   const FlowTree &                       m_Tree;
   std::vector<std::vector<ElementIndex>> m_Leading; ///< per node the next ones on ways to tips
-  std::vector<std::uint8_t>              m_LeadsToTip;
   UnionFind                              m_Blanked; ///< junctions of one bifurcation
 };
 

@@ -2,7 +2,7 @@
 
 #include "BorderPlaces.h"
 
-#include "voxelcore/UnionFind.h"
+#include "voxelcore/LoopClosers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +16,17 @@ namespace voxelcore
 namespace
 {
 
-/** Per node the number of the first node of its component. */
+/** Per node with branches the number of its component. */
 std::vector<ElementIndex>
-ComponentsOf(const SkeletonGraph & graph)
+ComponentsOf(const MeasuredSkeleton & part)
 {
-  const std::vector<ElementIndex> hubs = NodeHubs(graph);
-  UnionFind                       joined(static_cast<ElementIndex>(hubs.size()));
-  for (const auto & [first, last] : graph.branchNodes)
+  std::vector<ElementIndex> components(part.graph.nodePoints.size(), 0);
+  for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
   {
-    joined.Unite(hubs[first], hubs[last]);
-  }
-  std::vector<ElementIndex> components;
-  for (const ElementIndex hub : hubs)
-  {
-    components.push_back(joined.Find(hub));
+    for (const ElementIndex node : part.graph.branchNodes[branch])
+    {
+      components[node] = part.table.branches[branch].component;
+    }
   }
   return components;
 }
@@ -60,7 +57,7 @@ void
 AddThickest(const MeasuredSkeleton & part, const InletChoice & choice, std::vector<ElementIndex> & inlets)
 {
   const SkeletonGraph &                               graph = part.graph;
-  const std::vector<ElementIndex>                     components = ComponentsOf(graph);
+  const std::vector<ElementIndex>                     components = ComponentsOf(part);
   const std::vector<double>                           radius = RadiusAtNodes(part);
   std::map<ElementIndex, std::optional<ElementIndex>> best;
   for (const ElementIndex inlet : inlets)
@@ -140,24 +137,24 @@ DirectFlow(const MeasuredSkeleton & part, const std::vector<ElementIndex> & inle
   tree.into.assign(nodes, kNoBranch);
   tree.way.assign(nodes, std::numeric_limits<double>::infinity());
   tree.isForward.assign(graph.BranchCount(), 1);
-  tree.isOnTree.assign(graph.BranchCount(), 0);
-
-  std::vector<std::size_t> thickest(graph.BranchCount());
-  std::iota(thickest.begin(), thickest.end(), std::size_t{ 0 });
-  std::ranges::stable_sort(thickest, std::ranges::greater(), [&](std::size_t branch) {
-    return part.table.branches[branch].meanRadius;
-  });
-  UnionFind                              joined(static_cast<ElementIndex>(nodes));
-  std::vector<std::vector<ElementIndex>> beside(nodes);
-  for (const std::size_t branch : thickest)
+  std::vector<double> thickness;
+  for (const BranchRecord & branch : part.table.branches)
   {
-    const auto [first, last] = graph.branchNodes[branch];
-    if (joined.Find(first) != joined.Find(last))
+    thickness.push_back(branch.meanRadius);
+  }
+  std::vector<ElementIndex> own(nodes);
+  std::iota(own.begin(), own.end(), 0U);
+  std::vector<std::vector<ElementIndex>> beside(nodes);
+  for (const std::uint8_t closes : FindLoopClosers(graph, own, thickness))
+  {
+    const auto branch = static_cast<ElementIndex>(tree.isOnTree.size());
+    tree.isOnTree.push_back(closes == 0 ? 1 : 0);
+    for (const ElementIndex node : graph.branchNodes[branch])
     {
-      joined.Unite(first, last);
-      tree.isOnTree[branch] = 1;
-      beside[first].push_back(static_cast<ElementIndex>(branch));
-      beside[last].push_back(static_cast<ElementIndex>(branch));
+      if (closes == 0)
+      {
+        beside[node].push_back(branch);
+      }
     }
   }
   for (const ElementIndex inlet : inlets)
@@ -173,7 +170,6 @@ DirectFlow(const MeasuredSkeleton & part, const std::vector<ElementIndex> & inle
     while (done < tree.order.size())
     {
       const ElementIndex node = tree.order[done++];
-      std::ranges::sort(beside[node]);
       for (const ElementIndex branch : beside[node])
       {
         const auto [first, last] = graph.branchNodes[branch];

@@ -370,14 +370,13 @@ VesselAround(const SkeletonGraph & graph, const DomeBranch & dome)
   return vessel;
 }
 
-/** Unit length: the way from a dome's foot to the middle of its greatest ball; where the vessel goes straight on past
- *  the foot, the part of that at right angles to the vessel. */
+/** Unit length: the way from a dome's foot, where VesselAround() begins, to the middle of its greatest ball; where the
+ *  vessel goes straight on past the foot, the part of that at right angles to the vessel. */
 Vector3
-AcrossVessel(const SkeletonGraph & graph, const DomeBranch & dome)
+AcrossVessel(const std::vector<Vector3> & vessel, const Vector3 & middle)
 {
-  const Vector3 &            foot = graph.positions[graph.nodePoints[dome.node]];
-  const Vector3              way = Minus(graph.positions[dome.greatest], foot);
-  const std::vector<Vector3> vessel = VesselAround(graph, dome);
+  const Vector3 & foot = vessel.front();
+  const Vector3   way = Minus(middle, foot);
   // The two places farthest from each other, one of which is farthest from the foot.
   const Vector3 one =
     *std::ranges::max_element(vessel, {}, [&](const Vector3 & place) { return Distance(place, foot); });
@@ -406,13 +405,14 @@ MeasureDome(const SkeletonGraph & graph, const DomeBranch & dome, const SectionB
   {
     std::ranges::reverse(line);
   }
-  const Vector3    foot = line.front();
-  const Vector3    middle = graph.positions[dome.greatest];
-  const Vector3    axis = AcrossVessel(graph, dome);
-  const DomeLayers layers(body, VesselAround(graph, dome), middle, graph.radius[dome.greatest], axis);
-  const double     neck = layers.Neck();
-  const auto       circle = [&](double height) { return 2 * std::sqrt(layers.Area(height) / std::numbers::pi); };
-  VesselLesion     lesion;
+  const Vector3              foot = line.front();
+  const Vector3              middle = graph.positions[dome.greatest];
+  const std::vector<Vector3> vessel = VesselAround(graph, dome);
+  const Vector3              axis = AcrossVessel(vessel, middle);
+  const DomeLayers           layers(body, vessel, middle, graph.radius[dome.greatest], axis);
+  const double               neck = layers.Neck();
+  const auto   circle = [&](double height) { return 2 * std::sqrt(layers.Area(height) / std::numbers::pi); };
+  VesselLesion lesion;
   lesion.kind = LesionKind::Dome;
   lesion.branch = static_cast<ElementIndex>(dome.branch);
   lesion.diameter = circle(layers.Widest(neck));

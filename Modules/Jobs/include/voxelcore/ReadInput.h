@@ -59,6 +59,8 @@ ReadScanOrMesh(const std::filesystem::path &       path,
 /** The part of a scan that was read, in its indices. */
 VoxelBox
 PartRead(const LabelMap & scan);
+VoxelBox
+PartRead(const std::optional<CropRange> & crop, const ImageGeometry & geometry);
 
 /** The same where bodies at its border may be cut by it: that of a mesh's box cuts nothing. */
 std::optional<VoxelBox>

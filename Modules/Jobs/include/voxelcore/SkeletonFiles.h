@@ -71,7 +71,9 @@ public:
 private:
   bool
   IsFlowJson() const;
-  /** Centerlines first, then of flow segments, nodes and columns. */
+  std::filesystem::path
+  BesideFlow(const char * ending) const;
+  /** All that WriteFlow() writes. */
   std::vector<std::filesystem::path>
   FlowTargets() const;
   void

@@ -80,6 +80,16 @@ RangeOfLabel(const std::vector<WeightedValue> & values, const ColorShares & shar
 bool
 NeedOwnRanges(std::span<const LabelRange> labels, const ColorRange & all);
 
+/** The ranges of several labels, together and one by one. */
+struct LabelRanges
+{
+  ColorRange              all;
+  std::vector<LabelRange> each;
+};
+
+LabelRanges
+RangesOfLabels(std::span<const DisplayLabel> labels, PictureColoring coloring, const ColorShares & shares = {});
+
 /** The range of several labels together. */
 ColorRange
 RangeOfLabels(std::span<const DisplayLabel> labels, PictureColoring coloring, const ColorShares & shares = {});

@@ -93,8 +93,7 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     false,
     kBranches,
     "Where flow enters, for --centerlines and --flow: the tip nearest to each point (LPS mm); default: the thickest, "
-    "at "
-    "the scan's border if one is" },
+    "at the scan's border if one is" },
   { "root",
     "--root",
     Text,
