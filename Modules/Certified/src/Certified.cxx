@@ -4,13 +4,16 @@
 #include "CheckedLattice.h"
 #include "Frames.h"
 #include "RequestStages.h"
+#include "SingleLayer.h"
 #include "voxelcore/ShapeTopology.h"
 #include "voxelcore/SpacingWeights.h"
 #include "voxelcore/StagePlan.h"
 #include "voxelcore/Vectors.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace voxelcore
 {
@@ -18,48 +21,123 @@ namespace voxelcore
 namespace
 {
 
-/** The skeleton is that of a body that goes on where the scan's border cuts it; all else that is asked for is of the
- *  body within. */
-CertifiedResult
-RunUpToBorder(VoxelShape               shape,
-              const ImageGeometry &    geometry,
-              const CertifiedRequest & request,
-              const ProgressCallback & progress)
+/** What a skeleton is made of: the body, as it goes on where the scan's border cuts it, and of a single layer its two
+ *  halves. */
+class BodyOfCurves
 {
-  ExtendedShape extended = UpToBorder(shape, geometry, *request.scan, *request.skeleton);
-  if (extended.shape.Box().size == shape.Box().size)
+public:
+  BodyOfCurves(const VoxelShape & shape, const ImageGeometry & geometry, const CertifiedRequest & request)
+    : m_Geometry(geometry)
+    , m_Box(shape.Box())
   {
-    CertifiedResult result = RunCertified(std::move(shape), geometry, request, progress);
-    if (!extended.sections.empty())
+    if (!request.skeleton)
     {
-      result.skeleton->border = { std::move(extended.sections), 0 };
+      return;
     }
+    if (request.scan && request.skeleton->border != BorderEnds::Closed)
+    {
+      ExtendedShape extended = UpToBorder(shape, geometry, *request.scan, *request.skeleton);
+      m_Sections = std::move(extended.sections);
+      if (extended.shape.Box().size != shape.Box().size)
+      {
+        m_GoesOn = { *request.scan, shape.Box(), ComputeShapeTopology(shape), request.skeleton->border, m_Sections };
+        m_Shape = std::move(extended.shape);
+      }
+    }
+    // Cells and surfaces that others give are those of whole voxels.
+    const auto layer = request.cells || RefinesCurves(request)
+                         ? std::nullopt
+                         : SingleLayer(m_GoesOn ? m_Shape : shape, geometry.spacing);
+    if (layer)
+    {
+      m_Halved.emplace(*layer, geometry);
+      m_Shape = m_Halved->Halve(m_GoesOn ? m_Shape : shape);
+      if (m_GoesOn)
+      {
+        m_GoesOn = m_Halved->Halve(*m_GoesOn);
+      }
+    }
+  }
+
+  /** Whether it is not the body as it is. */
+  bool
+  IsAnother() const
+  {
+    return m_GoesOn || m_Halved;
+  }
+
+  /** The request must be for a skeleton, and nothing of the body as it is. */
+  CertifiedResult
+  Run(const CertifiedRequest & request, const ProgressCallback & progress)
+  {
+    const ImageGeometry & geometry = m_Halved ? m_Halved->Geometry() : m_Geometry;
+    RequireTrueLattice(ComputeLatticeWeights(geometry), geometry, m_Shape.Box(), request.name);
+    CertifiedResult result = RunCertified(std::move(m_Shape),
+                                          geometry,
+                                          m_Halved ? m_Halved->Halve(request) : request,
+                                          progress,
+                                          m_GoesOn ? &*m_GoesOn : nullptr);
+    result.shape.box = m_Box;
     return result;
   }
-  const BeyondBorder goesOn{ *request.scan,
-                             shape.Box(),
-                             ComputeShapeTopology(shape),
-                             request.skeleton->border,
-                             std::move(extended.sections) };
-  CertifiedRequest   curves = request;
-  curves.refineCores = false;
-  curves.thickness.reset();
-  curves.spendsCores = true;
-  if (request.spendsCores && !request.thickness)
+
+  /** Where the scan's border cuts the body. */
+  void
+  Tell(CertifiedResult & result)
   {
-    return RunCertified(std::move(extended.shape), geometry, curves, progress, &goesOn);
+    if (!m_Sections.empty())
+    {
+      result.skeleton->border = { std::move(m_Sections), result.skeleton->border ? result.skeleton->border->ends : 0 };
+    }
   }
-  CertifiedRequest within = request;
-  within.skeleton.reset();
-  StagePlan       plan(progress, { 0.5, 0.5 });
-  CertifiedResult result = RunCertified(std::move(shape), geometry, within, plan.Next());
-  CertifiedResult beyond = RunCertified(std::move(extended.shape), geometry, curves, plan.Next(), &goesOn);
-  result.skeleton = std::move(beyond.skeleton);
-  result.seconds.shape += beyond.seconds.shape;
-  result.seconds.delaunay += beyond.seconds.delaunay;
-  result.seconds.core += beyond.seconds.core;
-  result.seconds.prune += beyond.seconds.prune;
-  result.seconds.skeleton += beyond.seconds.skeleton;
+
+private:
+  const ImageGeometry &       m_Geometry;
+  VoxelBox                    m_Box;
+  VoxelShape                  m_Shape; ///< where it is another
+  std::vector<BorderSection>  m_Sections;
+  std::optional<BeyondBorder> m_GoesOn;
+  std::optional<HalvedLayer>  m_Halved;
+};
+
+CertifiedResult
+RunOfBodies(VoxelShape               shape,
+            const ImageGeometry &    geometry,
+            const CertifiedRequest & request,
+            const ProgressCallback & progress)
+{
+  BodyOfCurves    body(shape, geometry, request);
+  CertifiedResult result;
+  if (!body.IsAnother())
+  {
+    result = RunCertified(std::move(shape), geometry, request, progress);
+  }
+  else
+  {
+    CertifiedRequest curves = request;
+    curves.refineCores = false;
+    curves.thickness.reset();
+    curves.spendsCores = true;
+    if (request.spendsCores && !request.thickness)
+    {
+      result = body.Run(curves, progress);
+    }
+    else
+    {
+      CertifiedRequest within = request;
+      within.skeleton.reset();
+      StagePlan plan(progress, { 0.5, 0.5 });
+      result = RunCertified(std::move(shape), geometry, within, plan.Next());
+      CertifiedResult beyond = body.Run(curves, plan.Next());
+      result.skeleton = std::move(beyond.skeleton);
+      result.seconds.shape += beyond.seconds.shape;
+      result.seconds.delaunay += beyond.seconds.delaunay;
+      result.seconds.core += beyond.seconds.core;
+      result.seconds.prune += beyond.seconds.prune;
+      result.seconds.skeleton += beyond.seconds.skeleton;
+    }
+  }
+  body.Tell(result);
   return result;
 }
 
@@ -122,9 +200,7 @@ ComputeCertified(VoxelShape               shape,
   RequireTrueLattice(weights, geometry, frame.Leave(shape.Box()), request.name);
   RequireTrueLattice(weights, frame.Geometry(), shape.Box(), request.name);
   const CertifiedRequest there = InFrame(std::move(complete), frame, weights);
-  const bool             mayBeCut = there.scan && there.skeleton && there.skeleton->border != BorderEnds::Closed;
-  CertifiedResult        result = mayBeCut ? RunUpToBorder(std::move(shape), frame.Geometry(), there, forward)
-                                           : RunCertified(std::move(shape), frame.Geometry(), there, forward);
+  CertifiedResult        result = RunOfBodies(std::move(shape), frame.Geometry(), there, forward);
   result.shape.box = frame.Leave(result.shape.box);
   result.shape.geometry = geometry;
   for (CertifiedCore & core : result.cores)

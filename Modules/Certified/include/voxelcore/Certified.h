@@ -119,8 +119,8 @@ struct CertifiedSeconds
   double thickness = 0;
 };
 
-/** Where cores are spent, and a skeleton goes up to the scan's border, those described are of the body that goes on
- *  beyond it, and so are the boundary vertices. */
+/** Where cores are spent, and a skeleton goes up to the scan's border or is that of a single layer, those described are
+ *  of the body that goes on beyond it, or of the two halves of the layer, and so are the boundary vertices. */
 struct CertifiedResult
 {
   CertifiedShape                    shape;
