@@ -1,6 +1,7 @@
 // Whatever is wrong: one clear line, the right exit code, no output, no crash.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
+#include "VoxelCoreTesting/UnpackedVtp.h"
 #include "Program.h"
 #include "Scans.h"
 
@@ -285,7 +286,7 @@ TEST_F(BadUsage, MissingOrUnknownParts)
 void
 SetFirst(const std::filesystem::path & from, const std::filesystem::path & to, const std::string & name, double value)
 {
-  std::string       bytes = ReadAll(from);
+  std::string       bytes = UnpackedVtp(ReadAll(from));
   const std::string mark = "Name=\"" + name + "\"";
   const auto        array = bytes.find(mark);
   ASSERT_NE(array, std::string::npos);

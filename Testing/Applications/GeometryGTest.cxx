@@ -2,6 +2,7 @@
 // millimetres that a person computes from the numbers of the header.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
+#include "VoxelCoreTesting/UnpackedVtp.h"
 #include "Program.h"
 #include "Scans.h"
 
@@ -82,7 +83,7 @@ NiftiBytes(const NiftiPlace & place, const std::string & voxels)
 std::vector<Point>
 PointsOf(const std::string & path)
 {
-  const std::string file = ReadAll(path);
+  const std::string file = UnpackedVtp(ReadAll(path));
   const auto        array = file.find("Name=\"Points\"");
   const auto        offset = file.find("offset=\"", array);
   const auto        data = file.find("<AppendedData encoding=\"raw\">");

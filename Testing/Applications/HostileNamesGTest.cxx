@@ -1,6 +1,7 @@
 // Label names, file names and folders chosen to do harm: in tables, pages, scenes, records and messages they are text.
 
 #include "CommandFixture.h"
+#include "VoxelCoreTesting/UnpackedVtp.h"
 #include "Scans.h"
 
 #include <filesystem>
@@ -109,7 +110,7 @@ TEST_F(HostileNames, AreTextInAllThatIsWritten)
     {
       continue;
     }
-    const std::string bytes = ReadAll(entry.path());
+    const std::string bytes = extension == ".vtp" ? UnpackedVtp(ReadAll(entry.path())) : ReadAll(entry.path());
     EXPECT_EQ(bytes.find(kTurn), std::string::npos) << entry.path();
     if (extension == ".csv")
     {

@@ -1,6 +1,7 @@
 // Files damaged array by array: verify must refuse each, whatever made it.
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
+#include "VoxelCoreTesting/UnpackedVtp.h"
 
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
@@ -156,7 +157,7 @@ protected:
   {
     more.insert({ { "scan", At("scan.nrrd") }, { "output", At("core.vtp") }, { "force", "true" } });
     RunCoreJob(CoreOptionsFrom(more));
-    return ReadAll(At("core.vtp"));
+    return UnpackedVtp(ReadAll(At("core.vtp")));
   }
 
   bool
@@ -275,7 +276,7 @@ TEST_F(HeavyVerifyDamage, OfARefinedCorePrunedByToleranceIsSeen)
   MakeCore({ { "tolerance", "0.5diag" }, { "refine", "labels" } });
   ParameterValues further{ { "core", At("core.vtp") }, { "output", At("further.vtp") }, { "tolerance", "1.2diag" } };
   RunPruneJob(PruneOptionsFrom(further));
-  ExpectEveryDamageIsSeen(ReadAll(At("further.vtp")));
+  ExpectEveryDamageIsSeen(UnpackedVtp(ReadAll(At("further.vtp"))));
 }
 
 TEST_F(VerifyDamage, OfANumberThatIsNoLengthIsToldWhereTheFileIsRead)

@@ -1,11 +1,14 @@
 #include "ModelCells.h"
 #include "Models/ModelFixtures.h"
 #include "VoxelCoreTesting/Messages.h"
+#include "VoxelCoreTesting/UnpackedVtp.h"
 #include "voxelcore/SkeletonModel.h"
 
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdint>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <functional>
@@ -85,25 +88,58 @@ TEST(ModelFailures, ATruncatedFileIsRefusedWhereverItEnds)
 {
   const TemporaryFolder folder;
   WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
-  const std::string bytes = ReadAll(folder / "a.vtp");
-  // The very last bytes close the XML elements; before them the data must be all there.
-  const auto data = bytes.rfind("\n  </AppendedData>");
-  ASSERT_NE(data, std::string::npos);
-  for (std::size_t length = 0; length < data; length += length < 100 ? 9 : 61)
+  const std::string packed = ReadAll(folder / "a.vtp");
+  for (const std::string & bytes : { packed, UnpackedVtp(packed) })
   {
-    SCOPED_TRACE(length);
-    WriteAll(folder / "b.vtp", bytes.substr(0, length));
+    // The very last bytes close the XML elements; before them the data must be all there.
+    const auto data = bytes.rfind("\n  </AppendedData>");
+    ASSERT_NE(data, std::string::npos);
+    for (std::size_t length = 0; length < data; length += length < 100 ? 9 : 61)
+    {
+      SCOPED_TRACE(length);
+      WriteAll(folder / "b.vtp", bytes.substr(0, length));
+      ExpectUnreadable(folder / "b.vtp");
+    }
+    WriteAll(folder / "b.vtp", bytes.substr(0, data - 1));
     ExpectUnreadable(folder / "b.vtp");
   }
-  WriteAll(folder / "b.vtp", bytes.substr(0, data - 1));
-  ExpectUnreadable(folder / "b.vtp");
+}
+
+TEST(ModelFailures, BlocksThatCannotBeAreRefusedBeforeMemoryIsAskedFor)
+{
+  const TemporaryFolder folder;
+  WriteModel(folder / "a.vtp", "a.vtp", MixedModel());
+  const std::string bytes = ReadAll(folder / "a.vtp");
+  const std::size_t begin = bytes.find('_', bytes.find("<AppendedData")) + 1;
+  const std::size_t array = bytes.find("Name=\"Radius\"");
+  const std::size_t at = begin + std::stoul(bytes.substr(bytes.find("offset=\"", array) + 8, 20));
+  // Number of blocks, their size, that of the last, packed size of the first.
+  for (const std::size_t number : { 0, 1, 2, 3 })
+  {
+    for (const std::uint64_t value : { std::uint64_t{ 0 },
+                                       std::uint64_t{ 7 },
+                                       std::uint64_t{ 1 } << 32U,
+                                       std::uint64_t{ 1 } << 61U,
+                                       ~std::uint64_t{ 0 } })
+    {
+      if (number == 1)
+      {
+        continue; // says nothing where the only block is the last
+      }
+      SCOPED_TRACE(std::to_string(number) + ": " + std::to_string(value));
+      std::string damaged = bytes;
+      std::memcpy(damaged.data() + at + 8 * number, &value, sizeof value);
+      WriteAll(folder / "b.vtp", damaged);
+      ExpectUnreadable(folder / "b.vtp");
+    }
+  }
 }
 
 TEST(ModelFailures, MissingArraysAndWrongSpaceAreRefused)
 {
   const TemporaryFolder folder;
   WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
-  const std::string bytes = ReadAll(folder / "a.vtp");
+  const std::string bytes = UnpackedVtp(ReadAll(folder / "a.vtp"));
   for (const auto & [what, with] :
        std::vector<std::pair<std::string, std::string>>{ { "Name=\"Radius\"", "Name=\"radius\"" },
                                                          { "Name=\"Lambda\"", "Name=\"lambda\"" },
@@ -218,14 +254,15 @@ TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
 {
   const TemporaryFolder folder;
   WriteModel(folder / "a.vtp", "a.vtp", MixedModel(), { .triangles = false, .keepEdges = true });
-  const std::string bytes = ReadAll(folder / "a.vtp");
+  const std::string packed = ReadAll(folder / "a.vtp");
+  const std::string plain = UnpackedVtp(packed);
   std::mt19937_64   random(20);
   std::cout << "seed 20\n";
   int refused = 0;
   ::testing::internal::CaptureStderr();
   for (int run = 0; run < 1500; ++run)
   {
-    std::string damaged = bytes;
+    std::string damaged = run % 2 == 0 ? packed : plain;
     for (std::uint64_t flips = 1 + random() % 3; flips > 0; --flips)
     {
       damaged[random() % damaged.size()] ^= static_cast<char>(1U << (random() % 8));
@@ -243,7 +280,7 @@ TEST(ModelFailures, FlippedBitsNeverCrashNorPrint)
     }
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
-  EXPECT_GT(refused, 300); // most of the file is numbers any of which could be meant
+  EXPECT_GT(refused, 750); // of a plain file most is numbers any of which could be meant
 }
 
 TEST(ModelFailures, UnwritablePathsAreOneLineAndNoFile)

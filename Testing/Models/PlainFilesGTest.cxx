@@ -1,12 +1,19 @@
-// Files written without VTK have the bytes that VTK's writers give them.
+// Files written without VTK have the bytes that VTK's writers give them; those of .vtp once they are unpacked.
 
 #include "Models/ModelFixtures.h"
 #include "PlainArrays.h"
+#include "VoxelCoreTesting/UnpackedVtp.h"
+#include "voxelcore/ModelPolyData.h"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <omp.h>
+
+#include <filesystem>
 #include <limits>
 #include <random>
 
@@ -16,31 +23,32 @@ using namespace voxelcore::testing;
 namespace
 {
 
-std::string
-Bytes(const std::filesystem::path & path)
+void
+ExpectSame(const std::string & ours, const std::string & vtks)
 {
-  std::ifstream file(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>() };
+  ASSERT_FALSE(vtks.empty());
+  const auto differ = std::mismatch(ours.begin(), ours.end(), vtks.begin(), vtks.end());
+  const auto from = static_cast<std::size_t>(std::max<std::ptrdiff_t>(differ.first - ours.begin() - 60, 0));
+  EXPECT_TRUE(ours == vtks) << "'" << ours.substr(from, 120) << "' instead of '" << vtks.substr(from, 120) << "'";
 }
 
 void
 ExpectVtksBytes(const MedialModel & model, bool keepEdges)
 {
   const TemporaryFolder folder;
-  const auto            compare = [&](const char * extension, auto && writePlainly) {
-    const std::filesystem::path ours = folder.Path() / (std::string("ours") + extension);
-    const std::filesystem::path vtks = folder.Path() / (std::string("vtks") + extension);
-    writePlainly(ours, model, keepEdges);
-    WriteModel(vtks, vtks, model, { false, keepEdges });
-    const std::string a = Bytes(ours);
-    const std::string b = Bytes(vtks);
-    ASSERT_FALSE(b.empty());
-    const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-    const auto from = static_cast<std::size_t>(std::max<std::ptrdiff_t>(differ.first - a.begin() - 60, 0));
-    EXPECT_TRUE(a == b) << extension << ": '" << a.substr(from, 120) << "' instead of '" << b.substr(from, 120) << "'";
-  };
-  compare(".vtp", WritePlainVtp);
-  compare(".vtk", WritePlainVtk);
+  WritePlainVtk(folder / "ours.vtk", model, keepEdges);
+  WriteModel(folder / "vtks.vtk", "a.vtk", model, { false, keepEdges });
+  ExpectSame(ReadAll(folder / "ours.vtk"), ReadAll(folder / "vtks.vtk"));
+
+  WriteModel(folder / "ours.vtp", "a.vtp", model, { false, keepEdges });
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(MakePolyData(model, keepEdges));
+  writer->SetFileName((folder / "vtks.vtp").c_str());
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  ASSERT_EQ(writer->Write(), 1);
+  ExpectSame(UnpackedVtp(ReadAll(folder / "ours.vtp")), ReadAll(folder / "vtks.vtp"));
 }
 
 } // namespace
@@ -100,4 +108,27 @@ TEST(PlainFiles, HaveTheBytesOfVtksWritersForRandomModels)
   {
     ExpectVtksBytes(RandomModel(seed + i, 1 + static_cast<int>(i % 6), 1 + static_cast<int>(i % 3)), i % 2 == 0);
   }
+}
+
+TEST(PlainFiles, OfManyBlocksAreOneInAnyNumberOfThreadsAndWhatTheyWereForUsAndVtk)
+{
+  MedialModel model = MixedModel();
+  model.parts = { model.parts[1] };
+  model.parts.front().core = MakeCore(100000, {}, {}); // points take 2.3 blocks
+  const TemporaryFolder folder;
+  const int             most = omp_get_max_threads();
+  for (const int threads : { 1, 3 })
+  {
+    omp_set_num_threads(threads);
+    WriteModel(folder / ("by" + std::to_string(threads)), "a.vtp", model);
+  }
+  omp_set_num_threads(most);
+  EXPECT_EQ(ReadAll(folder / "by1"), ReadAll(folder / "by3"));
+  EXPECT_LT(ReadAll(folder / "by1").size(), UnpackedVtp(ReadAll(folder / "by1")).size() * 9 / 10);
+  std::filesystem::rename(folder / "by1", folder / "a.vtp");
+  EXPECT_TRUE(SameBits(ReadModel(folder / "a.vtp"), model));
+  EXPECT_TRUE(RequireVtkReads(folder / "a.vtp", model));
+  // As former versions wrote them.
+  WriteAll(folder / "former.vtp", UnpackedVtp(ReadAll(folder / "a.vtp")));
+  EXPECT_TRUE(SameBits(ReadModel(folder / "former.vtp"), model));
 }

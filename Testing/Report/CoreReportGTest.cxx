@@ -221,7 +221,12 @@ TEST(CoreReport, EditsAndInfiniteThresholdsSurviveReading)
   EXPECT_EQ(read.labels[1].edits->componentsRemoved, 5U);
   const Json json = Json::parse(text);
   EXPECT_EQ(json["parameters"]["crop"], (Json{ { 0, 10 }, { 1, 11 }, { 2, 12 } }));
-  EXPECT_EQ(json["parameters"]["change_voxels"], "+1,2,3 -4,5,6x7");
+  EXPECT_EQ(json["parameters"]["change_voxels"], (Json{ "+1,2,3", "-4,5,6x7" })) << "no list in a string";
+  std::string       former = text;
+  const std::string list = R"("change_voxels":["+1,2,3","-4,5,6x7"])";
+  ASSERT_NE(former.find(list), std::string::npos);
+  former.replace(former.find(list), list.size(), R"("change_voxels":"+1,2,3 -4,5,6x7")");
+  EXPECT_EQ(ParseProvenance(former, "a.vtp").parameters.edits.change, report.parameters.edits.change);
   EXPECT_EQ(read.parameters.edits.change, report.parameters.edits.change);
   EXPECT_EQ(json["labels"][0]["edits"]["changed"]["voxels_removed"], 38);
   EXPECT_EQ(json["labels"][0]["edits"]["voxels_added"], 3);

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tarfile
 import tempfile
+import zlib
 
 import matplotlib
 import numpy as np
@@ -123,9 +124,16 @@ class Core:
             if key not in arrays:
                 return np.zeros(0)
             at = begin + int(arrays[key][b"offset"])
-            size = int(np.frombuffer(data, "<u8", 1, at)[0])
+            blocks = int(np.frombuffer(data, "<u8", 1, at)[0])
+            at += 24
+            lengths = np.frombuffer(data, "<u8", blocks, at)
+            at += 8 * blocks
+            values = b""
+            for length in lengths:
+                values += zlib.decompress(data[at:at + int(length)])
+                at += int(length)
             kind = {b"Float64": "<f8", b"Int64": "<i8", b"Int32": "<i4"}[arrays[key][b"type"]]
-            return np.frombuffer(data, kind, size // int(kind[2]), at + 8)
+            return np.frombuffer(values, kind)
 
         self.points = read("Points", "Points").reshape(-1, 3)
         self.radius = read("PointData", "Radius")

@@ -1,8 +1,8 @@
 #include "AppendedVtp.h"
 
+#include "VtpPacking.h"
 #include "voxelcore/OutputFile.h"
 
-#include <bit>
 #include <type_traits>
 #include <utility>
 
@@ -12,9 +12,7 @@ namespace voxelcore
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little, "files are little endian");
-
-/** Raw appended arrays and the header that names them, as VTK's writer makes them. */
+/** Appended arrays and the header that names them, as VTK's writer makes them. */
 class AppendedArrays
 {
 public:
@@ -26,7 +24,7 @@ public:
     m_Header += "        <DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
                 std::to_string(components) + "\" format=\"appended\" offset=\"" + std::to_string(m_Data.size()) +
                 "\"/>\n";
-    Append(values.data(), values.size() * sizeof(Value));
+    m_Data += PackVtpArray(std::span(values));
   }
 
   void
@@ -34,7 +32,7 @@ public:
   {
     m_Header += "        <Array type=\"String\" Name=\"" + name +
                 "\" NumberOfTuples=\"1\" format=\"appended\" offset=\"" + std::to_string(m_Data.size()) + "\"/>\n";
-    Append(text.c_str(), text.size() + 1);
+    m_Data += PackVtpArray({ text.c_str(), text.size() + 1 });
   }
 
   void
@@ -56,13 +54,6 @@ public:
   }
 
 private:
-  void
-  Append(const void * data, std::uint64_t bytes)
-  {
-    m_Data.append(reinterpret_cast<const char *>(&bytes), sizeof(bytes));
-    m_Data.append(static_cast<const char *>(data), bytes);
-  }
-
   std::string m_Header;
   std::string m_Data;
 };
@@ -108,7 +99,8 @@ WriteVtp(const std::filesystem::path & path, const VtpContent & content)
   OutputFile file(path);
   file.Write(
     "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-    "header_type=\"UInt64\">\n  <PolyData>\n");
+    "header_type=\"UInt64\" compressor=\"" +
+    std::string(kCompressor) + "\">\n  <PolyData>\n");
   file.Write(fields);
   file.Write("    <Piece NumberOfPoints=" + count(content.positions.size() / 3) + " NumberOfVerts=" +
              count(content.cells[0].offsets.size()) + " NumberOfLines=" + count(content.cells[1].offsets.size()) +

@@ -1,5 +1,5 @@
 #pragma once
-// Polydata written as .vtp with raw appended data, as VTK's writer makes it.
+// Polydata written as .vtp with appended data in zlib's streams, as VTK's writer makes it.
 
 #include <cstdint>
 #include <filesystem>

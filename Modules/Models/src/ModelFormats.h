@@ -7,7 +7,7 @@
 namespace voxelcore
 {
 
-/** XML polydata, raw appended data; all that section 7 of the design asks for. */
+/** XML polydata as VTK's writer makes it, appended data in zlib's streams; all that a model holds. */
 void
 WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges);
 

@@ -1,20 +1,13 @@
 // What VTK does, where VoxelCore is built without it.
 
 #include "ModelFormats.h"
+#include "VtpPacking.h"
 #include "PlainArrays.h"
 #include "VtpFile.h"
 #include "XmlUnpacking.h"
 
-#include <zlib.h>
-
 namespace voxelcore
 {
-
-void
-WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
-{
-  WritePlainVtp(path, model, keepEdges);
-}
 
 void
 WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
@@ -37,11 +30,11 @@ RequireVtkReads(const std::filesystem::path &, const MedialModel &)
 std::uint64_t
 MostGain(const std::string & compressor)
 {
-  if (compressor != "vtkZLibDataCompressor")
+  if (compressor != kCompressor)
   {
     throw UnfitFile{ "it is compressed by " + compressor + ", which this build without VTK cannot read" };
   }
-  return 1032;
+  return kMostInflated;
 }
 
 bool
@@ -52,8 +45,7 @@ Unpack(const std::string &   compressor,
        std::uint64_t         size)
 {
   MostGain(compressor);
-  uLongf room = size;
-  return uncompress(to, &room, from, packed) == Z_OK && room == size;
+  return Inflate({ reinterpret_cast<const char *>(from), packed }, reinterpret_cast<char *>(to), size);
 }
 
 } // namespace voxelcore

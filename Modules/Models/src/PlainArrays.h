@@ -1,5 +1,5 @@
 #pragma once
-// A model's arrays without VTK, and the files VTK's writers would make of them, to the last byte.
+// A model's arrays without VTK, and the legacy file VTK's writer would make of them, to the last byte.
 
 #include "ModelSink.h"
 
@@ -77,10 +77,6 @@ private:
 
   std::deque<Array> m_Arrays; // whose addresses stay
 };
-
-/** WriteVtp (ModelFormats.h) without VTK. \throws OutputError, UsageError */
-void
-WritePlainVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges);
 
 /** WriteVtk without VTK. \throws OutputError, UsageError */
 void

@@ -1,9 +1,9 @@
+#include "ModelFormats.h"
+#include "VtpPacking.h"
 #include "PlainArrays.h"
-
 #include "voxelcore/OutputFile.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -12,8 +12,6 @@ namespace voxelcore
 {
 namespace
 {
-
-static_assert(std::endian::native == std::endian::little, "files are little endian");
 
 using Array = PlainArrays::Array;
 
@@ -67,7 +65,7 @@ NoRange()
   return " RangeMin=\"" + Padded("") + " RangeMax=\"" + Padded("");
 }
 
-/** The bytes of the arrays one after another, each behind its size, and the header that names them. */
+/** The arrays one after another, and the header that names them. */
 class Appended
 {
 public:
@@ -97,28 +95,37 @@ public:
       m_Header += isField ? " NumberOfTuples=\"" + std::to_string(array.tuples) + "\"" : std::string();
       m_Header += " format=\"appended\"" + (isCells ? NoRange() : Range(array));
     }
-    m_Header += " offset=\"" + Padded(std::to_string(m_Place)) + "/>\n";
-    m_Blocks.push_back({ &array, skipped });
-    m_Place += sizeof(std::uint64_t) + BytesOf(m_Blocks.back()).size();
+    m_Header += " offset=\"";
+    m_Blocks.push_back({ &array, skipped, m_Header.size() });
+    m_Header += Padded("") + "/>\n";
   }
 
+  /** Behind the header, which begins the file and is filled in. */
   void
   Write(OutputFile & file) const
   {
+    const std::uint64_t        begin = file.Place();
+    std::vector<std::uint64_t> places;
     for (const Block & block : m_Blocks)
     {
-      const std::string_view bytes = BytesOf(block);
-      const std::uint64_t    size = bytes.size();
-      file.Write(&size, sizeof(size));
-      file.Write(bytes);
+      places.push_back(file.Place());
+      file.Write(PackVtpArray(BytesOf(block)));
     }
+    const std::uint64_t end = file.Place();
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      file.MoveTo(m_Blocks[i].offsetAt);
+      file.Write(Padded(std::to_string(places[i] - begin)));
+    }
+    file.MoveTo(end);
   }
 
 private:
   struct Block
   {
     const Array * array;
-    std::uint64_t skipped; ///< values that are not written
+    std::uint64_t skipped;  ///< values that are not written
+    std::size_t   offsetAt; ///< in the header
   };
 
   static std::string_view
@@ -139,13 +146,12 @@ private:
 
   std::string &      m_Header;
   std::vector<Block> m_Blocks;
-  std::uint64_t      m_Place = 0;
 };
 
 } // namespace
 
 void
-WritePlainVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
+WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
 {
   PlainArrays arrays;
   WriteParts(model, keepEdges, arrays);
@@ -153,7 +159,9 @@ WritePlainVtp(const std::filesystem::path & path, const MedialModel & model, boo
   const Array noOffsets{ "Strips", "offsets", {}, {}, {}, {}, 0, 1, false, false, false };
 
   std::string header =
-    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <PolyData>\n";
+    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+    "compressor=\"" +
+    std::string(kCompressor) + "\">\n  <PolyData>\n";
   Appended   appended(header);
   const auto named = [&](const std::string & section, const std::string & indent, auto && add) {
     header += indent + "<" + section + ">\n";

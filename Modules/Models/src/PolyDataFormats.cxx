@@ -1,75 +1,17 @@
 #include "ModelFormats.h"
 #include "VtkMessages.h"
 #include "voxelcore/ModelPolyData.h"
-#include "voxelcore/OutputStream.h"
+#include "voxelcore/OutputFile.h"
 
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <cerrno>
-#include <locale>
 
 namespace voxelcore
 {
-namespace
-{
-
-/** Writes to a stream that keeps the reason of a failure. By itself VTK loses it, and removes whatever has the name. */
-class StreamedPolyDataWriter : public vtkXMLPolyDataWriter
-{
-public:
-  static StreamedPolyDataWriter *
-  New();
-  vtkTypeMacro(StreamedPolyDataWriter, vtkXMLPolyDataWriter);
-
-  void
-  SetStream(std::ostream * stream)
-  {
-    this->Stream = stream;
-  }
-
-protected:
-  int
-  WriteInternal() override
-  {
-    this->Stream->imbue(std::locale::classic());
-    return this->WriteData();
-  }
-};
-
-vtkStandardNewMacro(StreamedPolyDataWriter);
-
-} // namespace
-
-void
-WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
-{
-  OutputStream                   stream(path);
-  const VtkMessages              messages;
-  vtkNew<StreamedPolyDataWriter> writer;
-  writer->SetInputData(MakePolyData(model, keepEdges));
-  writer->SetFileName(path.c_str());
-  writer->SetStream(&stream);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  // LZ4 makes 18 MB into 7 but takes three times as long to write, and its bytes change with the library's version.
-  writer->SetCompressorTypeToNone();
-  writer->SetHeaderTypeToUInt64();
-  writer->SetByteOrderToLittleEndian();
-  const bool written = writer->Write() == 1;
-  writer->SetStream(nullptr);
-  const bool complete =
-    written && stream.good() && writer->GetErrorCode() == vtkErrorCode::NoError && messages.First().empty();
-  if (!complete && stream.good())
-  {
-    FailOutput(path, EIO); // of VTK's own
-  }
-  stream.Finish();
-}
 
 void
 WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)

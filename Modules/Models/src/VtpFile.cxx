@@ -1,5 +1,6 @@
 #include "VtpFile.h"
 
+#include "VtpPacking.h"
 #include "voxelcore/TextFields.h"
 
 #include <algorithm>
@@ -199,8 +200,10 @@ VtpFile::ParseHeader(const std::string & xml)
     if (tag.name == "VTKFile")
     {
       RequireFit(tag.attributes["type"] == "PolyData", "it is VTK data of another kind than polydata");
+      const auto compressor = tag.attributes.find("compressor");
+      m_IsPacked = compressor != tag.attributes.end();
       RequireForm(tag.attributes["byte_order"] == "LittleEndian" && tag.attributes["header_type"] == "UInt64" &&
-                    !tag.attributes.contains("compressor"),
+                    (!m_IsPacked || compressor->second == kCompressor),
                   "it was written by another program than VoxelCore");
     }
     RequireFit(MayStandIn(tag.name, around), "its header is damaged");
@@ -260,7 +263,7 @@ VtpFile::CheckArrays()
     std::uint64_t tuples = bytes / size / array.components;
     if (array.type == "String")
     {
-      const std::string text = ReadBytes(bytes);
+      const std::string text = ReadOpenedText(bytes);
       tuples = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\0'));
       RequireFit(text.empty() || text.back() == '\0', "a text is damaged");
       RequireFit(tuples % array.components == 0, "an array is cut off");
@@ -300,27 +303,94 @@ VtpFile::Find(const std::string & section, const std::string & name) const
   return found->second;
 }
 
+void
+VtpFile::ReadAt(std::uint64_t offset, char * to, std::uint64_t bytes)
+{
+  const std::uint64_t available = m_DataEnd - m_DataBegin;
+  RequireFit(offset <= available && bytes <= available - offset, "an array lies beyond its end");
+  m_File.seekg(static_cast<std::streamoff>(m_DataBegin + offset));
+  RequireFit(bool(m_File.read(to, static_cast<std::streamsize>(bytes))), "it cannot be read");
+}
+
 std::uint64_t
 VtpFile::OpenBlock(const Array & array)
 {
+  const auto number = [&](std::uint64_t index) {
+    RequireFit(array.offset <= m_DataEnd - m_DataBegin, "an array lies beyond its end");
+    std::array<char, 8> bytes;
+    ReadAt(array.offset + bytes.size() * index, bytes.data(), bytes.size());
+    std::uint64_t value = 0;
+    for (std::size_t byte = bytes.size(); byte-- > 0;)
+    {
+      value = value << 8U | static_cast<unsigned char>(bytes[byte]);
+    }
+    return value;
+  };
   const std::uint64_t available = m_DataEnd - m_DataBegin;
-  std::uint64_t       bytes = 0;
-  RequireFit(available >= sizeof(bytes) && array.offset <= available - sizeof(bytes), "an array lies beyond its end");
-  m_File.seekg(static_cast<std::streamoff>(m_DataBegin + array.offset));
-  for (std::size_t byte = 0; byte < sizeof(bytes); ++byte)
+  const std::uint64_t first = number(0);
+  m_Stretches.clear();
+  if (!m_IsPacked)
   {
-    bytes |= static_cast<std::uint64_t>(static_cast<unsigned char>(m_File.get())) << (8 * byte);
+    RequireFit(first <= available, "an array lies beyond its end");
+    m_Stretches.push_back({ first, first });
+    m_Opened = array.offset + 8;
   }
-  RequireFit(bool(m_File), "it cannot be read");
-  RequireFit(bytes <= available - sizeof(bytes) - array.offset, "an array lies beyond its end");
+  else
+  {
+    const std::uint64_t size = number(1);
+    const std::uint64_t last = number(2);
+    RequireFit(first <= available / 8, "its compressed blocks are damaged");
+    std::uint64_t packed = 0;
+    for (std::uint64_t block = 0; block < first; ++block)
+    {
+      const Stretch stretch{ number(3 + block), block + 1 == first && last > 0 ? last : size };
+      // No more memory is asked for than the file can fill.
+      RequireFit(stretch.packed <= available && stretch.bytes / kMostInflated <= stretch.packed,
+                 "its compressed blocks are damaged");
+      packed += stretch.packed;
+      RequireFit(packed <= available, "an array lies beyond its end");
+      m_Stretches.push_back(stretch);
+    }
+    m_Opened = array.offset + 8 * (3 + first);
+  }
+  std::uint64_t packed = 0;
+  std::uint64_t bytes = 0;
+  for (const Stretch & stretch : m_Stretches)
+  {
+    packed += stretch.packed;
+    bytes += stretch.bytes;
+  }
+  RequireFit(m_Opened <= available && packed <= available - m_Opened, "an array lies beyond its end");
   return bytes;
 }
 
+void
+VtpFile::ReadOpened(char * to)
+{
+  std::string   packed;
+  std::uint64_t at = m_Opened;
+  for (const Stretch & stretch : m_Stretches)
+  {
+    if (m_IsPacked)
+    {
+      packed.resize(stretch.packed);
+      ReadAt(at, packed.data(), packed.size());
+      RequireFit(Inflate(packed, to, stretch.bytes), "its compressed blocks are damaged");
+    }
+    else
+    {
+      ReadAt(at, to, stretch.bytes);
+    }
+    at += stretch.packed;
+    to += stretch.bytes;
+  }
+}
+
 std::string
-VtpFile::ReadBytes(std::uint64_t bytes)
+VtpFile::ReadOpenedText(std::uint64_t bytes)
 {
   std::string text(bytes, '\0');
-  RequireFit(bool(m_File.read(text.data(), static_cast<std::streamsize>(bytes))), "it cannot be read");
+  ReadOpened(text.data());
   return text;
 }
 
@@ -331,8 +401,7 @@ VtpFile::ReadBlock(const Array & array)
   const std::uint64_t bytes = OpenBlock(array);
   RequireFit(bytes % sizeof(Value) == 0, "an array is cut off");
   std::vector<Value> values(bytes / sizeof(Value));
-  RequireFit(bool(m_File.read(reinterpret_cast<char *>(values.data()), static_cast<std::streamsize>(bytes))),
-             "it cannot be read");
+  ReadOpened(reinterpret_cast<char *>(values.data()));
   if constexpr (std::endian::native == std::endian::big)
   {
     for (Value & value : values)
@@ -384,7 +453,7 @@ VtpFile::ReadText(const std::string & section, const std::string & name)
   {
     throw UnfitFile{ "its array " + section + "/" + name + " has the wrong type" };
   }
-  std::string text = ReadBytes(OpenBlock(array));
+  std::string text = ReadOpenedText(OpenBlock(array));
   RequireFit(!text.empty() && text.find('\0') == text.size() - 1, "a text is damaged");
   text.pop_back();
   return text;

@@ -1,5 +1,6 @@
 #pragma once
-// The arrays of a .vtp file in the form WriteVtp gives it: raw appended data, little endian, 64-bit headers.
+// The arrays of a .vtp file in the form WriteVtp gives it: appended data, little endian, 64-bit headers; in zlib's
+// streams, or as they are, as former versions wrote them.
 //
 // The header must be well-formed, and every array must have the length that the file's counts give it, also those that
 // nobody here asks for: what VTK could not open, or would read otherwise, is refused.
@@ -88,11 +89,17 @@ private:
   AddArray(const std::string & section, std::map<std::string, std::string> & attributes);
   void
   CheckArrays();
-  /** Goes to the values of an array; returns their bytes. */
+  /** Bytes from there on, of the appended data. */
+  void
+  ReadAt(std::uint64_t offset, char * to, std::uint64_t bytes);
+  /** Goes to the values of an array; returns their bytes, unpacked. */
   std::uint64_t
   OpenBlock(const Array & array);
+  /** All of the array that was opened last. */
+  void
+  ReadOpened(char * to);
   std::string
-  ReadBytes(std::uint64_t bytes);
+  ReadOpenedText(std::uint64_t bytes);
   template <typename Value>
   std::vector<Value>
   ReadBlock(const Array & array);
@@ -102,6 +109,16 @@ private:
   std::uint64_t                                        m_DataEnd = 0;
   std::map<std::string, std::string>                   m_Piece;
   std::map<std::pair<std::string, std::string>, Array> m_Arrays;
+
+  struct Stretch
+  {
+    std::uint64_t packed;
+    std::uint64_t bytes;
+  };
+
+  bool                 m_IsPacked = false;
+  std::uint64_t        m_Opened = 0; ///< where the first stretch of the array begins
+  std::vector<Stretch> m_Stretches;
 };
 
 } // namespace voxelcore

@@ -1,5 +1,6 @@
 #include "XmlUnpacking.h"
 
+#include "VtpPacking.h"
 #include "VtkMessages.h"
 #include "VtpFile.h"
 
@@ -22,9 +23,9 @@ struct Compressor
 Compressor
 MakeCompressor(const std::string & name)
 {
-  if (name == "vtkZLibDataCompressor")
+  if (name == kCompressor)
   {
-    return { vtkSmartPointer<vtkZLibDataCompressor>::New(), 1032 };
+    return { vtkSmartPointer<vtkZLibDataCompressor>::New(), kMostInflated };
   }
   if (name == "vtkLZ4DataCompressor")
   {

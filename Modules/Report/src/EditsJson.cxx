@@ -47,6 +47,17 @@ TopologyJson(const TopologyNumbers & topology)
 }
 
 nlohmann::ordered_json
+VoxelChangesJson(const VoxelChanges & changes)
+{
+  Json list = Json::array();
+  for (const VoxelRun & run : changes)
+  {
+    list.push_back(VoxelChangesText({ run }));
+  }
+  return list;
+}
+
+nlohmann::ordered_json
 EditRecordJson(const EditRecord & edits, bool inFile)
 {
   Json json{ { "cavities_filled", edits.cavitiesFilled },
@@ -89,7 +100,7 @@ EditRecordJson(const EditRecord & edits, bool inFile)
                           { "voxels_removed", edits.connected->voxelsRemoved } };
     if (!inFile)
     {
-      json["connected"]["changes"] = VoxelChangesText(edits.connected->changes);
+      json["connected"]["changes"] = VoxelChangesJson(edits.connected->changes);
     }
   }
   if (edits.touching)
@@ -99,7 +110,7 @@ EditRecordJson(const EditRecord & edits, bool inFile)
                          { "voxels_added", edits.touching->voxelsAdded } };
     if (!inFile)
     {
-      json["touching"]["changes"] = VoxelChangesText(edits.touching->changes);
+      json["touching"]["changes"] = VoxelChangesJson(edits.touching->changes);
     }
   }
   if (edits.smoothed)

@@ -1,5 +1,6 @@
 #include "ParametersJson.h"
 
+#include "EditsJson.h"
 #include "voxelcore/Error.h"
 #include "voxelcore/ParameterFields.h"
 #include "voxelcore/SpatialUnit.h"
@@ -76,7 +77,7 @@ ValueJson(MedianWidth width)
 Json
 ValueJson(const VoxelChanges & changes)
 {
-  return VoxelChangesText(changes);
+  return VoxelChangesJson(changes);
 }
 
 Json
@@ -168,7 +169,17 @@ ReadValue(const Json & json, VoxelChanges & changes)
 {
   try
   {
-    changes = ParseVoxelChanges(json.get<std::string>());
+    if (json.is_string()) // as former versions wrote it
+    {
+      changes = ParseVoxelChanges(json.get<std::string>());
+      return;
+    }
+    std::string text;
+    for (const Json & run : json)
+    {
+      text += run.get<std::string>() + ' ';
+    }
+    changes = ParseVoxelChanges(text);
   }
   catch (const UsageError & error)
   {

@@ -1,0 +1,30 @@
+#pragma once
+// Arrays in the appended data of VTK's XML files, packed as by vtkZLibDataCompressor, with headers of 64 bits.
+
+#include "Deflate.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** The file's attribute that says so. */
+constexpr std::string_view kCompressor = "vtkZLibDataCompressor";
+
+/** A packed array: its head, which is the number of blocks, their size, that of a smaller last one or 0, and the length
+ *  of each stream; then the streams. Blocks are packed side by side; the bytes do not tell in how many threads. */
+std::string
+PackVtpArray(std::string_view bytes);
+
+template <typename Value>
+std::string
+PackVtpArray(std::span<const Value> values)
+{
+  return PackVtpArray(std::string_view(reinterpret_cast<const char *>(values.data()), values.size_bytes()));
+}
+
+} // namespace voxelcore
