@@ -216,6 +216,16 @@ RunSheets(const Run & run)
 }
 
 int
+RunStraighten(const Run & run)
+{
+  const StraightenResult result = RunStraightenJob(StraightenOptionsFrom(run.line.values), run.context);
+  run.Warn(result.warnings);
+  run.Print(StraightenText(result));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
 RunRender(const Run & run)
 {
   const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
@@ -255,6 +265,8 @@ RunCommand(const Run & run)
       return RunThickness(run);
     case CommandId::Sheets:
       return RunSheets(run);
+    case CommandId::Straighten:
+      return RunStraighten(run);
     case CommandId::Render:
       return RunRender(run);
     case CommandId::Measure:

@@ -314,6 +314,11 @@ TEST_F(SkeletonCommand, WritesSectionsLesionsVolumesCenterlinesAndPipesOfOneRun)
   EXPECT_EQ(ReadAll(file("again.vtp")), centerlines);
   ASSERT_EQ(RunProgram({ "measure", file("s.vtp"), "-o", file("n.csv"), "--flow", file("pipes.json") }).code, 0);
   EXPECT_EQ(Json::parse(ReadAll(file("pipes.json"))).at("vessels").size(), 2U);
+  const ProgramResult openBf = RunProgram({ "measure", file("s.vtp"), "-o", file("o.csv"), "--flow", file("p.yaml") });
+  EXPECT_EQ(openBf.code, 3);
+  EXPECT_NE(openBf.error.find("p.yaml: openBF takes a network with one inlet, and this one has 2"), std::string::npos)
+    << openBf.error;
+  EXPECT_FALSE(std::filesystem::exists(file("o_branches.csv")));
 }
 
 TEST_F(SkeletonCommand, RefusesVolumesAndPipesThatCannotBeWritten)
@@ -335,6 +340,10 @@ TEST_F(SkeletonCommand, RefusesVolumesAndPipesThatCannotBeWritten)
   EXPECT_NE(refused({ "-o", to, "--centerlines", m_Folder / "f.csv" }).find(".vtp"), std::string::npos);
   EXPECT_NE(refused({ "-o", to, "--branch-map", m_Folder / "f.vtp" }).find("f.vtp"), std::string::npos);
   EXPECT_NE(refused({ "-o", to, "--inlet", "1,2,3" }).find("--flow"), std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--soma", "auto" }).find("--also swc"), std::string::npos);
+  EXPECT_NE(refused({ "-o", to, "--also", "swc", "--soma", "1,2" }).find("X,Y,Z"), std::string::npos);
+  EXPECT_NE(refused({ "-o", (m_Folder / "d").string() + "/", "--also", "swc", "--soma", "1,2,3" }).find("one label"),
+            std::string::npos);
   EXPECT_NE(refused({ "-o", to, "--flow", m_Folder / "f.csv", "--inlet", "1,2" }).find("X,Y,Z"), std::string::npos);
   ASSERT_EQ(RunProgram({ "core", m_Folder / "scan.nrrd", "-o", m_Folder / "c.vtp" }).code, 0);
   const ProgramResult fromCore =

@@ -87,10 +87,11 @@ def write_inputs(program):
         file.writelines("v %g %g %g\n" % (x, 20 * y, 20 * z) for x, y, z in CORNERS)
         file.writelines("f %d %d %d\n" % tuple(c + 1 for c in triangle) for triangle in TRIANGLES)
     for name, kind in (("scan.nii.gz", "torus"), ("root.nii.gz", "root"), ("root.nrrd", "root"), ("huge.nrrd", "root"),
-                       ("bone.nrrd", "tanglecube"), ("circle-of-willis.nii.gz", "vessels")):
+                       ("bone.nrrd", "tanglecube"), ("circle-of-willis.nii.gz", "vessels"), ("chest.nii.gz", "torus")):
         run(program, "phantom", kind, "--size", 32, "-o", name, "-q")
     run(program, "core", "root.nrrd", "--lambda", 0, "-o", "core.vtp", "-q")
     run(program, "core", "atlas.nii.gz", "-o", "atlas.vtp", "-q")
+    run(program, "skeleton", "chest.nii.gz", "-o", "aorta.vtp", "-q")
     Path("scans").mkdir()
     shutil.copy("scan.nii.gz", "scans")
     Path("cohort.csv").write_text("id,scan,lambda\na,scan.nii.gz,1vox\nb,bone.nrrd,\n")

@@ -136,6 +136,15 @@ TEST_F(Progress, OfSkeletonsGivesEachStageItsPart)
                                          { "force", "true" } }),
                    context);
   });
+  Watch("straighten", [&](const JobContext & context) {
+    RunStraightenJob(StraightenOptionsFrom({ { "scan", At("a.nrrd") },
+                                             { "skeleton", At("s.vtp") },
+                                             { "from", "0,0,0" },
+                                             { "to", "99,99,99" },
+                                             { "output", At("v.nrrd") },
+                                             { "force", "true" } }),
+                     context);
+  });
   EXPECT_GT(recorder.Share("mending"), 0.02);
   EXPECT_GT(recorder.Share("smoothing"), 0.01);
   EXPECT_GT(recorder.Share("delaunay"), 0.1);

@@ -1,5 +1,8 @@
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
+#include "Vessels/MeasuredGraphs.h"
+
+#include "voxelcore/Error.h"
 #include "voxelcore/FlowFiles.h"
 
 #include <gtest/gtest.h>
@@ -7,9 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <numbers>
+#include <set>
 #include <sstream>
+#include <utility>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkNew.h>
@@ -154,6 +161,208 @@ TEST(FlowFiles, JsonIsInputOfSvZeroDInCentimetres)
   }
   EXPECT_EQ(used, 3U);
   EXPECT_EQ(json.at("boundary_conditions").size(), 3U);
+}
+
+TEST(FlowFiles, JsonHasTheFieldsThatSvZeroDReadsAndNoOthers)
+{
+  // Its reader (SimulationParameters.cpp) looks up the fields of required(), and refuses values of elements that are
+  // not among those below.
+  const TemporaryFolder folder;
+  GraphOfLines          graph;
+  const auto            first = graph.Point({ 0, 0, 0 }, 2);
+  const auto            fork = graph.Point({ 20, 0, 0 }, 2);
+  const auto            meet = graph.Point({ 40, 0, 0 }, 2);
+  graph.Line(first, fork, 9);
+  graph.Line(fork, meet, 9);
+  const auto corner = graph.Point({ 30, 15, 0 }, 1);
+  graph.Line(fork, corner, 9);
+  graph.Line(corner, meet, 9);
+  graph.Line(meet, graph.Point({ 60, 0, 0 }, 1.5), 9);
+  graph.Line(meet, graph.Point({ 60, 30, 0 }, 1), 9);
+  const std::vector<MeasuredSkeleton> parts{ graph.Measured() };
+  WriteFlowJson(folder / "pipes.json", MakeFlowNetwork(parts, FindInlets(parts, {})), parts);
+  std::ifstream file(folder / "pipes.json");
+  const auto    json = nlohmann::json::parse(file);
+  const auto    required = [](const nlohmann::json & in, const std::vector<const char *> & names) {
+    for (const char * name : names)
+    {
+      EXPECT_TRUE(in.contains(name)) << name << " in " << in;
+    }
+  };
+  const auto only = [](const nlohmann::json & in, const std::set<std::string> & names) {
+    for (const auto & [name, value] : in.items())
+    {
+      EXPECT_TRUE(names.contains(name)) << name;
+      EXPECT_TRUE(value.is_number() || (value.is_array() && value.size() == 2)) << value;
+    }
+  };
+  required(json, { "simulation_parameters", "vessels", "junctions", "boundary_conditions" });
+  required(json.at("simulation_parameters"), { "number_of_cardiac_cycles", "number_of_time_pts_per_cardiac_cycle" });
+  std::map<int, int>         insideOf; // connections of each vessel's ends
+  std::map<int, int>         outsideOf;
+  std::map<std::string, int> conditions;
+  std::set<std::string>      names;
+  for (const auto & vessel : json.at("vessels"))
+  {
+    required(vessel, { "vessel_id", "vessel_name", "zero_d_element_type", "zero_d_element_values" });
+    only(vessel.at("zero_d_element_values"), { "R_poiseuille", "C", "L", "stenosis_coefficient" });
+    EXPECT_TRUE(names.insert(vessel.at("vessel_name")).second);
+    const int id = vessel.at("vessel_id");
+    EXPECT_EQ(insideOf.count(id), 0U);
+    insideOf[id] = 0;
+    outsideOf[id] = 0;
+    const auto ends = vessel.value("boundary_conditions", nlohmann::json::object());
+    for (const auto & [side, name] : ends.items())
+    {
+      ++(side == "inlet" ? insideOf : outsideOf)[id];
+      ++conditions[name];
+    }
+  }
+  for (const auto & junction : json.at("junctions"))
+  {
+    required(junction, { "junction_name", "junction_type", "inlet_vessels", "outlet_vessels" });
+    EXPECT_EQ(junction.at("junction_type"), "NORMAL_JUNCTION");
+    EXPECT_TRUE(names.insert(junction.at("junction_name")).second);
+    for (const int id : junction.at("inlet_vessels"))
+    {
+      ++outsideOf.at(id);
+    }
+    for (const int id : junction.at("outlet_vessels"))
+    {
+      ++insideOf.at(id);
+    }
+  }
+  EXPECT_EQ(insideOf.size(), 5U);
+  for (const auto & [id, count] : insideOf)
+  {
+    EXPECT_EQ(count, 1) << "begin of " << id;
+    EXPECT_EQ(outsideOf.at(id), 1) << "end of " << id;
+  }
+  for (const auto & condition : json.at("boundary_conditions"))
+  {
+    required(condition, { "bc_name", "bc_type", "bc_values" });
+    only(condition.at("bc_values"), { condition.at("bc_type") == "FLOW" ? "Q" : "P", "t" });
+    EXPECT_EQ(conditions[condition.at("bc_name")], 1);
+  }
+  EXPECT_EQ(conditions.size(), json.at("boundary_conditions").size());
+}
+
+namespace
+{
+
+/** Vessels of a file of openBF, each with its fields as they stand there. */
+std::vector<std::map<std::string, std::string>>
+OpenBfVessels(const std::vector<std::string> & rows)
+{
+  std::vector<std::map<std::string, std::string>> vessels;
+  for (auto row = std::ranges::find(rows, "network:"); row != rows.end(); ++row)
+  {
+    if (row->starts_with("  - "))
+    {
+      vessels.emplace_back();
+    }
+    if (row->size() > 4 && !vessels.empty())
+    {
+      const std::size_t colon = row->find(": ");
+      vessels.back()[row->substr(4, colon - 4)] = row->substr(colon + 2);
+    }
+  }
+  return vessels;
+}
+
+} // namespace
+
+TEST(FlowFiles, YamlIsAConfigurationOfOpenBfInMetres)
+{
+  const TemporaryFolder folder;
+  const auto            parts = PipesThatFork();
+  const auto            network = MakeFlowNetwork(parts, FindInlets(parts, {}));
+  WriteFlowYaml(folder / "a.yaml", folder / "a_inlet.dat", "a \"b\"", network, parts);
+  const auto rows = RowsOf(folder / "a.yaml");
+  for (const char * row : { "project_name: \"a \\\"b\\\"\"",
+                            "inlet_file: \"a \\\"b\\\"_inlet.dat\"",
+                            "solver:",
+                            "  Ccfl: 0.9",
+                            "  cycles: 100",
+                            "  convergence_tolerance: 1.0",
+                            "  jump: 100",
+                            "blood:",
+                            "  rho: 1060.0",
+                            "  mu: 0.0040",
+                            "network:" })
+  {
+    EXPECT_NE(std::ranges::find(rows, row), rows.end()) << row;
+  }
+  const auto vessels = OpenBfVessels(rows);
+  ASSERT_EQ(vessels.size(), 3U);
+  std::map<std::string, int> at;
+  for (const auto & vessel : vessels)
+  {
+    for (const char * name : { "label", "sn", "tn", "L", "R0", "E" })
+    {
+      ASSERT_TRUE(vessel.contains(name)) << name;
+    }
+    EXPECT_EQ(vessel.at("L").find('e'), std::string::npos) << "1e-3 is a text in YAML 1.1";
+    ++at[vessel.at("sn")];
+    EXPECT_EQ(vessel.contains("Rt"), vessel.at("sn") != "1") << "outlets alone have conditions";
+  }
+  EXPECT_EQ(at["1"], 1) << "the inlet's vessel begins at node 1";
+  EXPECT_NEAR(std::stod(vessels[0].at("L")), .02, 1e-9);
+  EXPECT_NEAR(std::stod(vessels[0].at("R0")), network.segments[0].PoiseuilleRadius() / 1000, 1e-9);
+  EXPECT_EQ(RowsOf(folder / "a_inlet.dat").size(), 2U);
+}
+
+TEST(FlowFiles, VesselsBetweenTheSameNodesGetNodesOfTheirOwnInOpenBf)
+{
+  const TemporaryFolder folder;
+  GraphOfLines          graph;
+  const auto            fork = graph.Point({ 20, 0, 0 }, 2);
+  const auto            meet = graph.Point({ 40, 0, 0 }, 2);
+  graph.Line(graph.Point({ 0, 0, 0 }, 3), fork, 9);
+  graph.Line(fork, meet, 4);
+  graph.Line(fork, meet, 8);
+  graph.Line(meet, graph.Point({ 60, 0, 0 }, 1), 9);
+  const std::vector<MeasuredSkeleton> parts{ graph.Measured() };
+  const auto                          network = MakeFlowNetwork(parts, FindInlets(parts, {}));
+  WriteFlowYaml(folder / "a.yaml", folder / "a_inlet.dat", "a", network, parts);
+  std::set<std::pair<std::string, std::string>> ways;
+  double                                        length = 0;
+  for (const auto & vessel : OpenBfVessels(RowsOf(folder / "a.yaml")))
+  {
+    EXPECT_TRUE(ways.insert({ vessel.at("sn"), vessel.at("tn") }).second);
+    length += std::stod(vessel.at("L"));
+  }
+  EXPECT_EQ(ways.size(), 5U);
+  EXPECT_NEAR(length, .08, 1e-8);
+}
+
+TEST(FlowFiles, WhatOpenBfCannotTakeIsRefusedWithThePlace)
+{
+  const TemporaryFolder folder;
+  GraphOfLines          graph;
+  const auto            fork = graph.Point({ 20, 0, 0 }, 2);
+  graph.Line(graph.Point({ 0, 0, 0 }, 3), fork, 9);
+  for (const double y : { -10., 0., 10. })
+  {
+    graph.Line(fork, graph.Point({ 40, y, 0 }, 1), 9);
+  }
+  std::vector<MeasuredSkeleton> parts{ graph.Measured() };
+  const auto                    message = [&]() -> std::string {
+    try
+    {
+      const auto network = MakeFlowNetwork(parts, FindInlets(parts, {}));
+      WriteFlowYaml(folder / "a.yaml", folder / "a_inlet.dat", "a", network, parts);
+    }
+    catch (const InputError & error)
+    {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_NE(message().find("1 in and 3 out at 20.00, 0.00, 0.00"), std::string::npos) << message();
+  parts = { PipesThatFork()[0], PipesThatFork()[0] };
+  EXPECT_NE(message().find("one inlet, and this one has 2"), std::string::npos) << message();
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.yaml"));
 }
 
 } // namespace voxelcore::testing

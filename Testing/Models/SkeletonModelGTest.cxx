@@ -2,12 +2,16 @@
 
 #include "voxelcore/Error.h"
 #include "voxelcore/SkeletonModel.h"
+#include "voxelcore/Vectors.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <iostream>
 #include <limits>
+#include <map>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -123,6 +127,156 @@ TEST(SkeletonModel, DamagedFilesAreRefused)
     WriteAll(folder / "b.vtp", damaged);
     EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError) << name;
   }
+}
+
+/** A row of an SWC. */
+struct SwcPoint
+{
+  long    id = 0;
+  long    type = 0;
+  Vector3 place{};
+  double  radius = 0;
+  long    parent = 0;
+};
+
+std::vector<SwcPoint>
+SwcPoints(const std::string & text)
+{
+  std::istringstream    file(text);
+  std::vector<SwcPoint> points;
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line[0] != '#')
+    {
+      SwcPoint           one;
+      std::istringstream row(line);
+      EXPECT_TRUE(row >> one.id >> one.type >> one.place[0] >> one.place[1] >> one.place[2] >> one.radius >> one.parent)
+        << line;
+      points.push_back(one);
+    }
+  }
+  return points;
+}
+
+/** A neuron of random branches: a soma of radius 6 with lines that zigzag out of it and fork. Two of them meet
+ *  again. */
+SkeletonPart
+RandomNeuron(std::mt19937_64 & random)
+{
+  const auto    within = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  SkeletonPart  part;
+  const Vector3 centre{ within(-50, 50), within(-50, 50), within(-50, 50) };
+  const auto    add = [&](const Vector3 & place) {
+    part.graph.positions.push_back(place);
+    part.graph.radius.push_back(std::max(within(.5, 1), 6 - Distance(place, centre)));
+    part.graph.erosionThickness.push_back(0);
+    return static_cast<ElementIndex>(part.graph.positions.size() - 1);
+  };
+  const auto anyWay = [&] {
+    std::normal_distribution<double> normal;
+    const Vector3                    way{ normal(random), normal(random), normal(random) };
+    return AddScaled({}, 1 / Length(way), way);
+  };
+  std::vector<std::vector<ElementIndex>> lines;
+  const ElementIndex                     soma = add(centre);
+  std::vector<ElementIndex>              ends;
+  const auto                             grow = [&](ElementIndex from, const Vector3 & way, int steps) {
+    lines.push_back({ from });
+    for (int i = 0; i < steps; ++i)
+    {
+      const Vector3 last = part.graph.positions[lines.back().back()];
+      lines.back().push_back(add(AddScaled(AddScaled(last, .8, way), .3, anyWay())));
+    }
+    return lines.back().back();
+  };
+  for (int branch = 0; branch < 5; ++branch)
+  {
+    const Vector3      way = anyWay();
+    const ElementIndex fork = grow(soma, way, 14);
+    ends.push_back(grow(fork, AddScaled(AddScaled({}, .7, way), .7, anyWay()), 10));
+    ends.push_back(grow(fork, AddScaled(AddScaled({}, .7, way), .7, anyWay()), 10));
+  }
+  lines.push_back({ ends[0], ends[3] }); // a cycle through the soma
+  SortBranches(part.graph, lines, true);
+  part.label = 1;
+  part.table = MeasureBranches(part.graph);
+  return part;
+}
+
+TEST(SkeletonModel, SwcWithASomaIsOneTreeThatBeginsAtIt)
+{
+  const auto seed = std::random_device{}();
+  std::cout << "seed " << seed << '\n';
+  std::mt19937_64       random(seed);
+  const TemporaryFolder folder;
+  for (int repeat = 0; repeat < 20; ++repeat)
+  {
+    SkeletonModel model;
+    model.provenance = "{}";
+    model.parts = { RandomNeuron(random) };
+    const Vector3 centre = model.parts[0].graph.positions[0];
+    SomaChoice    choice;
+    if (repeat % 2 == 0)
+    {
+      choice.place = AddScaled(centre, 2.5, { 0, 1, 0 });
+    }
+    WriteSwc(folder / "n.swc", model, {}, choice);
+    const auto points = SwcPoints(ReadAll(folder / "n.swc"));
+    ASSERT_GT(points.size(), 50U);
+    EXPECT_EQ(points[0].type, 1);
+    EXPECT_EQ(points[0].parent, -1);
+    EXPECT_NEAR(Distance(points[0].place, AddScaled({}, 1000, centre)), 0, .01);
+    EXPECT_NEAR(points[0].radius, 6000, .01);
+    std::size_t stems = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+    {
+      EXPECT_EQ(points[i].id, static_cast<long>(i + 1));
+      EXPECT_GE(points[i].parent, 1) << "one tree";
+      EXPECT_LT(points[i].parent, points[i].id) << "parents first";
+      EXPECT_EQ(points[i].type, 3);
+      const double away = Distance(points[i].place, points[0].place);
+      EXPECT_GT(away, 5999.9) << "nothing inside";
+      if (points[i].parent == 1)
+      {
+        EXPECT_NEAR(away, 6000, .1);
+        ++stems;
+      }
+    }
+    EXPECT_GE(stems, 5U);
+    EXPECT_NE(ReadAll(folder / "n.swc").find("# a cycle was cut"), std::string::npos);
+  }
+}
+
+TEST(SkeletonModel, SwcTypesFollowTheNamesOfLabelsAroundASoma)
+{
+  SkeletonModel model;
+  model.provenance = "{}";
+  SkeletonPart part;
+  for (int i = 0; i < 9; ++i)
+  {
+    part.graph.positions.push_back({ 3. * i, 0, 0 });
+    part.graph.radius.push_back(i == 3 ? 4 : 1);
+    part.graph.erosionThickness.push_back(0);
+    part.graph.labels.push_back(i < 3 ? 7 : i < 6 ? 8 : 9);
+    part.graph.contact.push_back(i == 3 || i == 6 ? 1 : 0);
+  }
+  part.network.emplace();
+  part.network->labels = { { 7, "Axon 1", 0, 0 }, { 8, "soma", 0, 0 }, { 9, "basal dendrite", 0, 0 } };
+  SortBranches(part.graph, { { 0, 1, 2, 3 }, { 3, 4, 5, 6 }, { 6, 7, 8 } }, false);
+  part.table = MeasureBranches(part.graph);
+  model.parts = { part };
+  const TemporaryFolder folder;
+  WriteSwc(folder / "n.swc", model, {}, SomaChoice());
+  std::map<double, long> types;
+  for (const SwcPoint & point : SwcPoints(ReadAll(folder / "n.swc")))
+  {
+    types[std::round(point.place[0] / 1000)] = point.type;
+  }
+  EXPECT_EQ(types.at(9), 1);
+  EXPECT_EQ(types.at(0), 2);
+  EXPECT_EQ(types.at(3), 2);
+  EXPECT_EQ(types.at(15), 6) << "another label keeps its place in the list";
+  EXPECT_EQ(types.at(24), 3);
 }
 
 TEST(SkeletonModel, SwcIsAForestInMicrometresOrVoxels)

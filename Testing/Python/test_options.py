@@ -34,7 +34,7 @@ WITHOUT = {
     "with-skeleton": "Core.skeleton()",
     "quiet": "nothing is printed",
     "sections": "tables and contours that the program writes beside its skeleton",
-    **dict.fromkeys(("branch-map", "order-map", "skeleton-map", "centerlines", "flow", "inlet"),
+    **dict.fromkeys(("branch-map", "order-map", "skeleton-map", "centerlines", "flow", "inlet", "soma"),
                     "files that the program writes beside its skeleton"),
     **dict.fromkeys(("separation", "within"), "measure the background as an array of its own"),
 }
@@ -49,7 +49,7 @@ FUNCTIONS = {
     "verify": (voxelcore.verify,),
 }  # fmt: skip
 TABLE = [row for row in _voxelcore.option_table() if row["command"] in FUNCTIONS]
-PROGRAM = ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet")
+PROGRAM = ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet", "soma")
 SAVING = ("overwrite", "triangles", "keep_edges", "also")
 
 

@@ -65,5 +65,16 @@ TEST(SkeletonTexts, WhatIsNeitherIsRefused)
   }
 }
 
+TEST(SkeletonTexts, ListsOfPointsAreReadInOneWay)
+{
+  EXPECT_EQ(ParsePlaces("1,2,3"), (std::vector<Vector3>{ { 1, 2, 3 } }));
+  EXPECT_EQ(ParsePlaces(" 1, 2 ,3 ; -4.5,0,1e2"), (std::vector<Vector3>{ { 1, 2, 3 }, { -4.5, 0, 100 } }));
+  for (const char * text :
+       { "", ";", "1,2,3;", ";1,2,3", "1,2,3;;4,5,6", "1,2", "1,2,3,4", "1,2,x", "1,2,inf", "1 2 3" })
+  {
+    EXPECT_THROW(ParsePlaces(text), UsageError) << text;
+  }
+}
+
 } // namespace
 } // namespace voxelcore

@@ -198,7 +198,8 @@ OF_THICKNESS = rows("thickness", "Input", "Pruning", "Shape edits", "Refinement"
 OF_SHEETS = rows("sheets", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running")
 for _of_saving in (OF_SKELETON, OF_MEASURE):
     del _of_saving["also"]  # of Skeleton.save()
-for _of_program in ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet"):  # files
+for _of_program in ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet",
+                    "soma"):  # files
     for _of_branches in (OF_SKELETON, OF_MEASURE):
         _of_branches.pop(_of_program, None)
 for _of_background in ("separation", "within"):  # measure the background as an array of its own

@@ -81,13 +81,19 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
   {
     throw UsageError(option + ": all labels go into one file; give -o OUT.vtp or OUT.csv instead of a folder");
   }
+  if (m_ToFolder && m_Targets.soma && m_Targets.soma->place)
+  {
+    throw UsageError(
+      "--soma X,Y,Z: is in one label, and a folder gets a file per label; give -o OUT.vtp, or --soma auto");
+  }
   if (m_Targets.centerlines && m_Targets.centerlines->extension() != ".vtp")
   {
     throw UsageError("--centerlines " + m_Targets.centerlines->string() + ": give a .vtp file");
   }
-  if (m_Targets.flow && !IsFlowJson() && m_Targets.flow->extension() != ".csv")
+  if (m_Targets.flow && !IsFlowJson() && !IsFlowYaml() && m_Targets.flow->extension() != ".csv")
   {
-    throw UsageError("--flow " + m_Targets.flow->string() + ": give a .csv file, or a .json file for svZeroDSolver");
+    throw UsageError("--flow " + m_Targets.flow->string() +
+                     ": give a .csv file, a .json file for svZeroDSolver, or a .yaml file for openBF");
   }
   m_Transaction.Protect(m_Input);
   for (const fs::path & target : FlowTargets())
@@ -123,6 +129,12 @@ SkeletonFiles::IsFlowJson() const
   return m_Targets.flow->extension() == ".json";
 }
 
+bool
+SkeletonFiles::IsFlowYaml() const
+{
+  return m_Targets.flow->extension() == ".yaml" || m_Targets.flow->extension() == ".yml";
+}
+
 fs::path
 SkeletonFiles::BesideFlow(const char * ending) const
 {
@@ -140,7 +152,11 @@ SkeletonFiles::FlowTargets() const
   if (m_Targets.flow)
   {
     targets.push_back(*m_Targets.flow);
-    if (!IsFlowJson())
+    if (IsFlowYaml())
+    {
+      targets.push_back(BesideFlow("_inlet.dat"));
+    }
+    else if (!IsFlowJson())
     {
       targets.push_back(BesideFlow("_nodes.csv"));
       targets.push_back(BesideFlow("_columns.json"));
@@ -152,10 +168,10 @@ SkeletonFiles::FlowTargets() const
 void
 SkeletonFiles::RequireUnit(SpatialUnit unit) const
 {
-  if (unit != SpatialUnit::Millimetres && m_Targets.flow && IsFlowJson())
+  if (unit != SpatialUnit::Millimetres && m_Targets.flow && (IsFlowJson() || IsFlowYaml()))
   {
-    throw InputError(m_Input.string() + ": gives no voxel size, and --flow " + m_Targets.flow->string() +
-                     " is in centimetres; give --spacing, or a .csv file");
+    throw InputError(m_Input.string() + ": gives no voxel size, and --flow " + m_Targets.flow->string() + " is in " +
+                     (IsFlowJson() ? "centimetres" : "metres") + "; give --spacing, or a .csv file");
   }
 }
 
@@ -185,6 +201,18 @@ SkeletonFiles::WriteFlow(const CoreReport & report)
     if (IsFlowJson())
     {
       WriteFlowJson(target, network, m_Model.parts);
+    }
+    else if (IsFlowYaml())
+    {
+      const std::string name = m_Targets.flow->stem().string();
+      try
+      {
+        WriteFlowYaml(target, m_Transaction.Stage(BesideFlow("_inlet.dat")), name, network, m_Model.parts);
+      }
+      catch (const InputError & error)
+      {
+        throw InputError("--flow " + m_Targets.flow->string() + ": " + error.what());
+      }
     }
     else
     {
@@ -335,7 +363,7 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
     }
     else if (ending == "swc")
     {
-      WriteSwc(m_Transaction.Stage(targets[0]), m_Model, { report.skeleton->branches.root });
+      WriteSwc(m_Transaction.Stage(targets[0]), m_Model, { report.skeleton->branches.root }, m_Targets.soma);
     }
     else if (ending == "mrk.json")
     {

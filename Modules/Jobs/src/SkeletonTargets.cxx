@@ -2,7 +2,6 @@
 
 #include "voxelcore/DidYouMean.h"
 #include "voxelcore/Error.h"
-#include "voxelcore/SkeletonTexts.h"
 #include "voxelcore/Text.h"
 
 #include <algorithm>
@@ -29,27 +28,6 @@ ParseAlso(const std::string & text)
     }
   }
   return endings;
-}
-
-std::vector<Vector3>
-ParseInlets(const std::string & text)
-{
-  std::vector<Vector3> places;
-  for (const std::string_view one : SplitText(text, ';'))
-  {
-    std::vector<std::string> parts;
-    for (const std::string_view part : SplitText(one, ','))
-    {
-      parts.emplace_back(part);
-    }
-    const auto place = ParsePlace(parts);
-    if (!place)
-    {
-      throw UsageError("--inlet " + text + ": expected X,Y,Z in LPS mm, or several such with semicolons between");
-    }
-    places.push_back(*place);
-  }
-  return places;
 }
 
 } // namespace voxelcore

@@ -3,12 +3,16 @@
 #include "AppendedVtp.h"
 #include "TableColumns.h"
 
+#include "voxelcore/Error.h"
 #include "voxelcore/SkeletonModel.h"
+#include "voxelcore/Text.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <utility>
 
 namespace voxelcore
@@ -45,6 +49,10 @@ constexpr auto kNodeColumns = std::to_array<Column>({
 constexpr double kDensity = 1.06;   // of blood, g/cm^3
 constexpr double kViscosity = 0.04; // of blood, g/(cm s)
 
+// Examples that users put their own in for.
+constexpr double kYoungsModulus = 4e5; // of an artery's wall, Pa
+constexpr double kInflow = 1e-6;       // m^3/s
+
 std::int64_t
 LabelOf(const FlowSegment & segment, const std::vector<MeasuredSkeleton> & parts)
 {
@@ -52,16 +60,63 @@ LabelOf(const FlowSegment & segment, const std::vector<MeasuredSkeleton> & parts
   return part.network ? part.graph.BranchLabel(segment.branch) : part.label;
 }
 
-/** Numbers of segments at a node, as JSON. */
-std::string
-ListOf(const std::vector<std::size_t> & segments)
+struct NodeSegments
 {
-  std::string list;
-  for (const std::size_t segment : segments)
+  std::vector<std::size_t> ending;
+  std::vector<std::size_t> beginning;
+};
+
+std::vector<NodeSegments>
+SegmentsAtNodes(const FlowNetwork & network)
+{
+  std::vector<NodeSegments> at(network.nodes.size());
+  for (std::size_t i = 0; i < network.segments.size(); ++i)
   {
-    list += (list.empty() ? "" : ", ") + std::to_string(segment);
+    at[network.segments[i].from].beginning.push_back(i);
+    at[network.segments[i].to].ending.push_back(i);
   }
-  return "[" + list + "]";
+  return at;
+}
+
+/** A node's number in files of openBF, where the inlet is 1. */
+std::vector<std::size_t>
+OpenBfNumbers(const FlowNetwork & network)
+{
+  std::vector<std::size_t> numbers(network.nodes.size());
+  std::size_t              next = 2;
+  for (std::size_t node = 0; node < numbers.size(); ++node)
+  {
+    numbers[node] = network.nodes[node].kind == FlowNodeKind::Inlet ? 1 : next++;
+  }
+  return numbers;
+}
+
+/** What openBF cannot have. */
+void
+RequireOpenBf(const FlowNetwork & network, const std::vector<NodeSegments> & at)
+{
+  const auto        inlets = std::ranges::count(network.nodes, FlowNodeKind::Inlet, &FlowNode::kind);
+  const std::string other = "; give a .csv file, or a .json file for svZeroDSolver";
+  if (inlets != 1)
+  {
+    throw InputError("openBF takes a network with one inlet, and this one has " + std::to_string(inlets) + other +
+                     ", or choose one label in one piece");
+  }
+  for (std::size_t node = 0; node < at.size(); ++node)
+  {
+    const auto & [ending, beginning] = at[node];
+    const bool isFit = network.nodes[node].kind != FlowNodeKind::Inner ||
+                       (!ending.empty() && !beginning.empty() && ending.size() + beginning.size() <= 3);
+    if (!isFit)
+    {
+      const Vector3 & place = network.nodes[node].place;
+      throw InputError(
+        "openBF takes two or three vessels at a junction, of which one leads in and "
+        "one out, and not the " +
+        std::to_string(ending.size()) + " in and " + std::to_string(beginning.size()) + " out at " +
+        FixedText(place[0]) + ", " + FixedText(place[1]) + ", " + FixedText(place[2]) + " (LPS mm)" + other);
+    }
+  }
 }
 
 } // namespace
@@ -159,15 +214,10 @@ WriteFlowJson(const std::filesystem::path &         path,
               const FlowNetwork &                   network,
               const std::vector<MeasuredSkeleton> & parts)
 {
-  constexpr double                      perCm = 10; // mm
-  std::vector<std::vector<std::size_t>> ending(network.nodes.size());
-  std::vector<std::vector<std::size_t>> beginning(network.nodes.size());
-  double                                inflow = 0;
-  for (std::size_t i = 0; i < network.segments.size(); ++i)
-  {
-    beginning[network.segments[i].from].push_back(i);
-    ending[network.segments[i].to].push_back(i);
-  }
+  using Json = nlohmann::ordered_json;
+  constexpr double perCm = 10; // mm
+  const auto       at = SegmentsAtNodes(network);
+  double           inflow = 0;
   for (const FlowNode & node : network.nodes)
   {
     inflow += node.kind == FlowNodeKind::Inlet ? node.radius * node.radius : 0;
@@ -175,61 +225,118 @@ WriteFlowJson(const std::filesystem::path &         path,
   const auto nameOf = [&](std::size_t node) {
     return (network.nodes[node].kind == FlowNodeKind::Inlet ? "INLET_" : "OUTLET_") + std::to_string(node);
   };
-  TextFile file(path);
-  file << "{\n  \"simulation_parameters\": {\"density\": " << kDensity << ", \"viscosity\": " << kViscosity
-       << ", \"number_of_cardiac_cycles\": 1, \"number_of_time_pts_per_cardiac_cycle\": 11},\n  \"vessels\": [";
+  Json vessels = Json::array();
   for (std::size_t i = 0; i < network.segments.size(); ++i)
   {
     const FlowSegment & segment = network.segments[i];
-    file << (i > 0 ? ",\n" : "\n") << "    {\"vessel_id\": " << i << ", \"vessel_name\": \"branch" << i
-         << "_seg0\", \"vessel_length\": " << segment.length / perCm
-         << ", \"zero_d_element_type\": \"BloodVessel\", \"zero_d_element_values\": {\"R_poiseuille\": "
-         << 8 * kViscosity / std::numbers::pi * segment.perRadius4 * perCm * perCm * perCm
-         << ", \"L\": " << kDensity / std::numbers::pi * segment.perRadius2 * perCm
-         << ", \"C\": 0, \"stenosis_coefficient\": 0}";
-    std::string ends;
+    const double        resistance = 8 * kViscosity / std::numbers::pi * segment.perRadius4 * perCm * perCm * perCm;
+    Json                vessel = {
+                     { "vessel_id", i },
+                     { "vessel_name", "branch" + std::to_string(i) + "_seg0" },
+                     { "vessel_length", segment.length / perCm },
+                     { "zero_d_element_type", "BloodVessel" },
+                     { "zero_d_element_values",
+                       { { "R_poiseuille", resistance },
+                         { "L", kDensity / std::numbers::pi * segment.perRadius2 * perCm },
+                         { "C", 0.0 },
+                         { "stenosis_coefficient", 0.0 } } },
+    };
     for (const auto & [node, side] : { std::pair(segment.from, "inlet"), std::pair(segment.to, "outlet") })
     {
       if (network.nodes[node].kind != FlowNodeKind::Inner)
       {
-        ends += (ends.empty() ? "\"" : ", \"") + std::string(side) + "\": \"" + nameOf(node) + "\"";
+        vessel["boundary_conditions"][side] = nameOf(node);
       }
     }
-    if (!ends.empty())
-    {
-      file << ", \"boundary_conditions\": {" << ends << "}";
-    }
-    file << ", \"branch_id\": " << segment.branch << ", \"label\": " << LabelOf(segment, parts) << "}";
+    vessel["branch_id"] = segment.branch;
+    vessel["label"] = LabelOf(segment, parts);
+    vessels.push_back(std::move(vessel));
   }
-  file << "\n  ],\n  \"junctions\": [";
-  std::size_t junctions = 0;
-  for (std::size_t node = 0; node < network.nodes.size(); ++node)
+  Json junctions = Json::array();
+  Json conditions = Json::array();
+  for (std::size_t i = 0; i < network.nodes.size(); ++i)
   {
-    if (network.nodes[node].kind == FlowNodeKind::Inner)
+    const FlowNode & node = network.nodes[i];
+    if (node.kind == FlowNodeKind::Inner)
     {
-      file << (junctions > 0 ? ",\n" : "\n") << "    {\"junction_name\": \"J" << junctions
-           << "\", \"junction_type\": \"NORMAL_JUNCTION\", \"inlet_vessels\": " << ListOf(ending[node])
-           << ", \"outlet_vessels\": " << ListOf(beginning[node]) << "}";
-      ++junctions;
+      junctions.push_back({ { "junction_name", "J" + std::to_string(junctions.size()) },
+                            { "junction_type", "NORMAL_JUNCTION" },
+                            { "inlet_vessels", at[i].ending },
+                            { "outlet_vessels", at[i].beginning } });
+      continue;
     }
+    const bool   isInlet = node.kind == FlowNodeKind::Inlet;
+    const double value = isInlet ? node.radius * node.radius / inflow : 0;
+    conditions.push_back({ { "bc_name", nameOf(i) },
+                           { "bc_type", isInlet ? "FLOW" : "PRESSURE" },
+                           { "bc_values", { { isInlet ? "Q" : "P", { value, value } }, { "t", { 0.0, 1.0 } } } } });
   }
-  file << "\n  ],\n  \"boundary_conditions\": [";
-  bool isFirst = true;
-  for (std::size_t node = 0; node < network.nodes.size(); ++node)
-  {
-    const FlowNode & end = network.nodes[node];
-    if (end.kind != FlowNodeKind::Inner)
-    {
-      const bool   isInlet = end.kind == FlowNodeKind::Inlet;
-      const double value = isInlet ? end.radius * end.radius / inflow : 0;
-      file << (isFirst ? "\n" : ",\n") << "    {\"bc_name\": \"" << nameOf(node) << "\", \"bc_type\": \""
-           << (isInlet ? "FLOW" : "PRESSURE") << "\", \"bc_values\": {\"" << (isInlet ? "Q" : "P") << "\": [" << value
-           << ", " << value << "], \"t\": [0, 1]}}";
-      isFirst = false;
-    }
-  }
-  file << "\n  ]\n}\n";
+  const Json json = { { "simulation_parameters",
+                        { { "density", kDensity },
+                          { "viscosity", kViscosity },
+                          { "number_of_cardiac_cycles", 1 },
+                          { "number_of_time_pts_per_cardiac_cycle", 11 } } },
+                      { "vessels", std::move(vessels) },
+                      { "junctions", std::move(junctions) },
+                      { "boundary_conditions", std::move(conditions) } };
+  TextFile   file(path);
+  file << json.dump(2) << "\n";
   file.Finish();
+}
+
+void
+WriteFlowYaml(const std::filesystem::path &         path,
+              const std::filesystem::path &         inlet,
+              const std::string &                   name,
+              const FlowNetwork &                   network,
+              const std::vector<MeasuredSkeleton> & parts)
+{
+  constexpr double perMetre = 1000; // mm
+  constexpr int    kDecimals = 9;   // nm; in fixed form, as 1e-6 is a text in YAML 1.1
+  const auto       at = SegmentsAtNodes(network);
+  RequireOpenBf(network, at);
+  const auto                                    numbers = OpenBfNumbers(network);
+  std::size_t                                   next = numbers.size() + 1;
+  std::set<std::pair<std::size_t, std::size_t>> taken;
+  TextFile                                      file(path);
+  const auto                                    quoted = [](const std::string & text) { // as JSON is YAML, too
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  };
+  file << "project_name: " << quoted(name) << "\ninlet_file: " << quoted(name + "_inlet.dat")
+       << "\nwrite_results: [\"P\", \"Q\"]\n\nsolver:\n  Ccfl: 0.9\n  cycles: 100\n"
+       << "  convergence_tolerance: 1.0\n  jump: 100\n\nblood:\n  rho: " << FixedText(1000 * kDensity, 1)
+       << "\n  mu: " << FixedText(kViscosity / 10, 4) << "\n\nnetwork:\n";
+  for (std::size_t i = 0; i < network.segments.size(); ++i)
+  {
+    const FlowSegment & segment = network.segments[i];
+    const auto          write = [&](const char * ending, std::size_t from, std::size_t to, double length) {
+      file << "  - label: \"segment" << i << ending << "\" # label " << LabelOf(segment, parts) << ", branch_id "
+           << segment.branch << "\n    sn: " << from << "\n    tn: " << to
+           << "\n    L: " << FixedText(length / perMetre, kDecimals)
+           << "\n    R0: " << FixedText(segment.PoiseuilleRadius() / perMetre, kDecimals)
+           << "\n    E: " << FixedText(kYoungsModulus, 1) << "\n";
+    };
+    const std::size_t from = numbers[segment.from];
+    const std::size_t to = numbers[segment.to];
+    if (taken.insert({ from, to }).second)
+    {
+      write("", from, to, segment.length);
+    }
+    else // openBF knows vessels by their nodes
+    {
+      write("a", from, next, segment.length / 2);
+      write("b", next, to, segment.length / 2);
+      ++next;
+    }
+    if (network.nodes[segment.to].kind == FlowNodeKind::Outlet)
+    {
+      file << "    Rt: 0.0\n";
+    }
+  }
+  file.Finish();
+  TextFile flow(inlet);
+  flow << "0.0 " << kInflow << "\n1.0 " << kInflow << "\n";
+  flow.Finish();
 }
 
 } // namespace voxelcore

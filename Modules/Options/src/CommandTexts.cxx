@@ -230,7 +230,20 @@ Examples:
   voxelcore batch season.csv --roots --up z+ -o season/
   voxelcore batch bones/ --thickness --separation hull -o thickness/)";
 
-constexpr std::array<Command, 14> kCommands{ {
+constexpr std::string_view kStraightenFooter =
+  R"(The result is a straight volume: its third axis is the length along the vessel, and its first two lie across it.
+Planes do not turn about the axis, so a straight feature of the vessel stays straight. Their middle is the axis, the
+skeleton smoothed over twice its radius to each side. Grey scans and labels of any grid do, if they lie where the
+skeleton's scan lies. Guide: straightening.md
+
+--table says where each plane lies. A point (across, up, arc) of the straight volume is place + across * its first
+direction + up * its second one, in LPS mm. --points maps points there or back.
+
+Examples:
+  voxelcore straighten chest.nii.gz aorta.vtp --branch 0 -o straight.nrrd --table straight.csv
+  voxelcore straighten chest.nii.gz aorta.vtp --from 5,16,16 --to 27,16,16 --spacing 0.5 -o straight.nrrd)";
+
+constexpr std::array<Command, 15> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Skeleton, "skeleton", "Compute the curve skeleton of a scan or of a medial surface", kSkeletonFooter },
   { CommandId::Roots, "roots", "Find the roots of a plant in a CT or MRI scan, and measure them", kRootsFooter },
@@ -240,6 +253,7 @@ constexpr std::array<Command, 14> kCommands{ {
   { CommandId::Verify, "verify", "Recheck a medial surface against its scan", kVerifyFooter },
   { CommandId::Render, "render", "Draw pictures of medial surfaces and skeletons", kRenderFooter },
   { CommandId::Measure, "measure", "Write tables of a skeleton's branches", kMeasureFooter },
+  { CommandId::Straighten, "straighten", "Resample a scan along a vessel of its skeleton", kStraightenFooter },
   { CommandId::Prune, "prune", "Prune a medial surface further, without its scan", kPruneFooter },
   { CommandId::Batch,
     "batch",

@@ -172,12 +172,12 @@ public:
     return { *low, *high };
   }
 
-  /** Voxel sizes in mm; of a mesh one number serves all axes. */
+  /** Voxel sizes in mm; one number may serve all axes. */
   Vector3
-  Spacing(bool isOfMesh = false) const
+  Spacing(bool isOneEnough = false, std::string_view name = "spacing") const
   {
-    auto parts = SplitText(Text("spacing"), ',');
-    if (parts.size() == 1 && isOfMesh)
+    auto parts = SplitText(Text(name), ',');
+    if (parts.size() == 1 && isOneEnough)
     {
       parts.resize(3, parts.front());
     }
@@ -191,7 +191,7 @@ public:
     }
     if (!good)
     {
-      ThrowUsageError("spacing", "three positive numbers in mm, such as 0.5,0.5,2");
+      ThrowUsageError(name, "three positive numbers in mm, such as 0.5,0.5,2");
     }
     return spacing;
   }

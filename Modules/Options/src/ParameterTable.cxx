@@ -8,6 +8,7 @@
 #include "table/RootRows.h"
 #include "table/RunningRows.h"
 #include "table/SkeletonRows.h"
+#include "table/StraightenRows.h"
 #include "table/ThicknessRows.h"
 
 namespace voxelcore
@@ -56,6 +57,7 @@ constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInp
                                         Rows{ ParameterGroup::ShapeEdits, table::kShapeEditRows },
                                         Rows{ ParameterGroup::Refinement, table::kRefinementRows },
                                         Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
+                                        Rows{ ParameterGroup::Straightening, table::kStraightenRows },
                                         Rows{ ParameterGroup::Running, table::kRunningRows });
 
 } // namespace
@@ -87,6 +89,8 @@ GroupHeading(ParameterGroup group)
       return "Roots";
     case ParameterGroup::Thickness:
       return "Thickness and sheets";
+    case ParameterGroup::Straightening:
+      return "Straightening";
     case ParameterGroup::Running:
       break;
   }

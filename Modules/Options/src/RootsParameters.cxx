@@ -6,40 +6,11 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/Parameters.h"
 #include "voxelcore/SkeletonTexts.h"
-#include "voxelcore/Text.h"
-#include "voxelcore/TextFields.h"
 
-#include <algorithm>
-#include <sstream>
 #include <vector>
 
 namespace voxelcore
 {
-
-namespace
-{
-
-/** "X,Y,Z;X,Y,Z" */
-std::vector<Vector3>
-PlacesFrom(const std::string & text)
-{
-  std::vector<Vector3> places;
-  std::istringstream   all(text);
-  for (std::string one; std::getline(all, one, ';');)
-  {
-    std::vector<std::string> parts = SplitText(one, ',');
-    std::ranges::transform(parts, parts.begin(), [](const std::string & part) { return std::string(Trim(part)); });
-    const auto place = ParsePlace(parts);
-    if (!place)
-    {
-      throw UsageError("--stem " + text + ": expected places as X,Y,Z, several with ';' between them");
-    }
-    places.push_back(*place);
-  }
-  return places;
-}
-
-} // namespace
 
 RootsOptions
 RootsOptionsFrom(const ParameterValues & values)
@@ -63,7 +34,10 @@ RootsOptionsFrom(const ParameterValues & values)
   options.stage.lambda.text = "0";
   options.rules.up = ParseUp(reader.Text("up"));
   options.rules.stems = reader.Text("stems") == "auto" ? 0 : static_cast<int>(reader.Whole("stems", 1, 1000));
-  options.rules.stem = PlacesFrom(reader.Text("stem"));
+  if (reader.IsGiven("stem"))
+  {
+    options.rules.stem = reader.Parsed("stem", ParsePlaces);
+  }
   if (!options.rules.stem.empty() && options.rules.stems != 1)
   {
     throw UsageError("--stem gives the only stem; leave out --stems");

@@ -183,9 +183,23 @@ TargetsFrom(const ParameterValues & values, CommandId command)
     targets.centerlines = reader.FileIfGiven("centerlines");
     targets.flow = reader.FileIfGiven("flow");
   }
+  if (values.contains("soma"))
+  {
+    const std::string text = reader.Text("soma");
+    const auto        places = text == "auto" ? std::vector<Vector3>() : reader.Parsed("soma", ParsePlaces);
+    if (places.size() > 1)
+    {
+      reader.ThrowUsageError("soma", "auto, or one point, X,Y,Z in LPS mm");
+    }
+    targets.soma = { places.empty() ? std::optional<Vector3>() : places[0] };
+    if (std::ranges::find(targets.also, "swc") == targets.also.end())
+    {
+      throw UsageError("--soma: needs --also swc");
+    }
+  }
   if (values.contains("inlet"))
   {
-    targets.inlets = ParseInlets(ValueOf(values, command, "inlet"));
+    targets.inlets = reader.Parsed("inlet", ParsePlaces);
     if (!targets.centerlines && !targets.flow)
     {
       throw UsageError("--inlet: needs --centerlines or --flow");

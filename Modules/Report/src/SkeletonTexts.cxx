@@ -4,6 +4,7 @@
 #include "voxelcore/Error.h"
 #include "voxelcore/ParseReal.h"
 #include "voxelcore/Text.h"
+#include "voxelcore/TextFields.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,24 @@ ParsePlace(const std::vector<std::string> & parts)
     place[axis] = *value;
   }
   return place;
+}
+
+std::vector<Vector3>
+ParsePlaces(const std::string & text)
+{
+  std::vector<Vector3> places;
+  for (const std::string & one : SplitText(text, ';'))
+  {
+    std::vector<std::string> parts = SplitText(one, ',');
+    std::ranges::transform(parts, parts.begin(), [](const std::string & part) { return std::string(Trim(part)); });
+    const auto place = ParsePlace(parts);
+    if (!place)
+    {
+      throw UsageError("expected X,Y,Z in LPS mm, or several such with semicolons between, not '" + text + "'");
+    }
+    places.push_back(*place);
+  }
+  return places;
 }
 
 RootChoice

@@ -1,4 +1,4 @@
-#include "PolynomialFit.h"
+#include "voxelcore/PolynomialFit.h"
 
 #include "voxelcore/OpenShape.h"
 #include "voxelcore/ParallelTasks.h"

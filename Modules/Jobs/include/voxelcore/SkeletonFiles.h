@@ -71,6 +71,8 @@ public:
 private:
   bool
   IsFlowJson() const;
+  bool
+  IsFlowYaml() const;
   std::filesystem::path
   BesideFlow(const char * ending) const;
   /** All that WriteFlow() writes. */

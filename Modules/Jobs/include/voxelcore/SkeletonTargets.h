@@ -3,6 +3,7 @@
 
 #include "voxelcore/ImageGeometry.h"
 #include "voxelcore/LambdaPruning.h"
+#include "voxelcore/SomaTree.h"
 
 #include <filesystem>
 #include <optional>
@@ -29,8 +30,11 @@ struct SkeletonTargets
   std::optional<std::filesystem::path> skeletonMap{};
 
   std::optional<std::filesystem::path> centerlines{}; ///< .vtp, as VMTK has them
-  std::optional<std::filesystem::path> flow{};        ///< .csv with a table of nodes, or .json for svZeroDSolver
-  std::vector<Vector3>                 inlets{};      ///< of both, LPS mm
+  std::optional<std::filesystem::path>
+                       flow{};   ///< .csv with a table of nodes, .json for svZeroDSolver, or .yaml for openBF
+  std::vector<Vector3> inlets{}; ///< of both, LPS mm
+
+  std::optional<SomaChoice> soma{}; ///< where the SWC begins
 
   /** The option that asks for something of the bodies around skeletons; empty: none does. */
   std::string_view
@@ -50,10 +54,6 @@ struct SkeletonTargets
     return !NeedsBodies().empty() ? NeedsBodies() : centerlines ? "--centerlines" : flow ? "--flow" : "";
   }
 };
-
-/** "x,y,z" in LPS mm, several with semicolons between. \throws UsageError */
-std::vector<Vector3>
-ParseInlets(const std::string & text);
 
 /** Comma-separated endings for `also`. \throws UsageError for one that is not known */
 std::vector<std::string>

@@ -39,4 +39,17 @@ WriteFlowJson(const std::filesystem::path &         path,
               const FlowNetwork &                   network,
               const std::vector<MeasuredSkeleton> & parts);
 
+/** Configuration of openBF (insigneo.github.io/openBF) in metres and pascals, of a network in mm with one inlet, and
+ *  in `inlet` its inflow: a vessel per segment with the radius of the even pipe of the same resistance, and numbers of
+ *  nodes from 1, the inlet. A second segment between the same nodes is cut in its middle, as openBF knows vessels by
+ *  their nodes. Blood as above; Young's modulus (400 kPa), no reflection at outlets, and inflow (1 cm^3/s) are
+ *  examples. `inlet` is called NAME_inlet.dat. \throws InputError for a network with several inlets or none, and for a
+ *  junction of more than three vessels, or with none that leads out of it; OutputError */
+void
+WriteFlowYaml(const std::filesystem::path &         path,
+              const std::filesystem::path &         inlet,
+              const std::string &                   name,
+              const FlowNetwork &                   network,
+              const std::vector<MeasuredSkeleton> & parts);
+
 } // namespace voxelcore

@@ -2,10 +2,12 @@
 // Curve skeletons as files: .vtp for viewers and for VoxelCore, .swc .mrk.json .graphml for others, .csv tables.
 
 #include "voxelcore/MeasuredSkeleton.h"
+#include "voxelcore/SomaTree.h"
 #include "voxelcore/SpatialUnit.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,9 +40,17 @@ ReadSkeletonVtp(const std::filesystem::path & path);
 
 /** SWC in micrometres (in voxels where the unit is the voxel), LPS axes: `id type x y z radius parent`, parents
  *  first. Cycles are cut (CutLoops), which the header lists; where faces stay a tree begins anew. `root` as in
- *  MeasureOptions. \throws OutputError */
+ *  MeasureOptions. Types are 0, or of a network 5 and on by label.
+ *
+ *  With a soma the tree begins at its middle, a point of type 1 with its radius, and branches at the ball's surface
+ *  (CutAtSoma). Other points have type 3, dendrite, or of a network that of labels whose names say so: 2 for axon, 3
+ *  for dendrite, 4 for apical. Without a place each part has its soma; with one, the part has it that the place is in
+ *  or nearest to. Components that do not reach it stay trees of their own. \throws OutputError */
 void
-WriteSwc(const std::filesystem::path & path, const SkeletonModel & model, const MeasureOptions & options);
+WriteSwc(const std::filesystem::path &     path,
+         const SkeletonModel &             model,
+         const MeasureOptions &            options,
+         const std::optional<SomaChoice> & soma = {});
 
 /** A Slicer curve per branch, in LPS mm (or voxels), its radii as a measurement. \throws OutputError */
 void

@@ -13,6 +13,7 @@
 #include "voxelcore/RootsJob.h"
 #include "voxelcore/SheetsJob.h"
 #include "voxelcore/SkeletonJob.h"
+#include "voxelcore/StraightenJob.h"
 #include "voxelcore/ThicknessJob.h"
 #include "voxelcore/VerifyJob.h"
 #include "voxelcore/VoxelizeJob.h"
@@ -43,7 +44,8 @@ enum class CommandId : std::uint32_t
   Voxelize = 1024,
   Roots = 2048,
   Thickness = 4096,
-  Sheets = 8192
+  Sheets = 8192,
+  Straighten = 16384
 };
 
 struct Command
@@ -80,6 +82,7 @@ enum class ParameterGroup
   ShapeEdits,
   Refinement,
   Skeleton,
+  Straightening,
   Running
 };
 
@@ -195,6 +198,8 @@ ThicknessOptions
 ThicknessOptionsFrom(const ParameterValues & values);
 SheetsOptions
 SheetsOptionsFrom(const ParameterValues & values);
+StraightenOptions
+StraightenOptionsFrom(const ParameterValues & values);
 RenderJobOptions
 RenderOptionsFrom(const ParameterValues & values);
 

@@ -14,6 +14,10 @@ namespace voxelcore
 std::optional<Vector3>
 ParsePlace(const std::vector<std::string> & parts);
 
+/** "x,y,z" in LPS mm, several with semicolons between; blanks may stand around numbers. \throws UsageError */
+std::vector<Vector3>
+ParsePlaces(const std::string & text);
+
 /** "top", "bottom", "thickest" or "x,y,z" in LPS mm. \throws UsageError */
 RootChoice
 ParseRoot(const std::string & text);
