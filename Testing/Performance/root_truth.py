@@ -52,6 +52,19 @@ def read_rsml(path):
     return roots
 
 
+def outside_parents(roots):
+    """The same roots from their parent's surface on, where those of RSML begin on its axis."""
+    outside = Roots()
+    for line, radii, level, parent in zip(roots.lines, roots.radii, roots.levels, roots.parents):
+        if parent >= 0:
+            there, at = cKDTree(roots.lines[parent]).query(line)
+            within = there < roots.radii[parent][at]
+            first = int(numpy.argmin(within)) if not within.all() else len(line) - 2
+            line, radii = line[first:], radii[first:]
+        outside.add(line, radii, level, parent)
+    return outside
+
+
 def read_published(path):
     """A hierarchical skeleton: vertices with level and radius, edges (ASCII PLY). Gives lines of a step each, tips, the
     graph's length. Roots that spring from the stem come in two levels there, of which the first is what lies between

@@ -70,6 +70,25 @@ TEST(RootFlow, AStemGoesStraightThroughItsNodesAndEndsWhereOnlyRootsGoOn)
   EXPECT_EQ(roots.axes[0].children, 12);
 }
 
+// Of a whorl at its foot no root is the stem's own, however straight below; a taproot is, with its thin laterals.
+TEST(RootFlow, AStemEndsWhereSeveralRootsAlikeGoOnAndRunsOnAsATaproot)
+{
+  for (const double other : { 3.5, 1.5 })
+  {
+    GraphBuilder builder;
+    builder.Line({ 0, 0, 160 }, { 0, 0, 80 }, 7);
+    builder.Line({ 0, 0, 80 }, { 0, 0, 0 }, 4);
+    builder.Line({ 0, 0, 80 }, { 60, 0, 20 }, other);
+    builder.Line({ 0, 0, 80 }, { -60, 0, 20 }, other);
+    const SkeletonGraph graph = builder.Graph();
+    const RootBranches  branches(graph);
+    const auto          stems = FindStems(branches, Vector3{ 0, 0, 1 }, {});
+    ASSERT_EQ(stems.size(), 1U);
+    EXPECT_EQ(stems[0].size(), other > 2 ? 1U : 2U);
+    EXPECT_EQ(FindRoots(graph).axes.size(), other > 2 ? 4U : 3U);
+  }
+}
+
 // Whatever the stem begins at, no branch is left without a root but bridges between roots that touch.
 TEST(RootFlow, BranchesAtTheBaseOfAStemSpringFromIt)
 {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace voxelcore::testing
 {
@@ -478,11 +479,12 @@ TEST(RootHierarchy, TheReachOfAMeetingAtOneJunctionIsItsBallAndAFifth)
 
 TEST(RootHierarchy, RootsOfAWhorlThatRunFusedNextToTheStemAllSpringFromIt)
 {
-  for (const auto & [fork, deepest] : { std::pair{ 15.0, 1 }, { 25.0, 2 } }) // 1.5 and 2.5 radii of the stem
+  // 1.5 and 2.5 radii of a thick stem; next to a thin one, up to 3 radii of the root beyond it.
+  for (const auto & [stem, fork, deepest] : { std::tuple{ 10.0, 15.0, 1 }, { 10, 25, 2 }, { 4, 12, 1 }, { 4, 16, 2 } })
   {
     GraphBuilder builder;
-    builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, 10);
-    builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, 10);
+    builder.Line({ 0, 0, 100 }, { 0, 0, 50 }, stem);
+    builder.Line({ 0, 0, 50 }, { 0, 0, 0 }, stem);
     builder.Line({ 0, 0, 50 }, { fork, 0, 50 }, 3);
     builder.Line({ fork, 0, 50 }, { fork + 60, 20, 50 }, 2.5);
     builder.Line({ fork, 0, 50 }, { fork + 60, -30, 40 }, 2.4);
@@ -490,7 +492,7 @@ TEST(RootHierarchy, RootsOfAWhorlThatRunFusedNextToTheStemAllSpringFromIt)
     rules.up = Vector3{ 0, 0, 1 };
     const RootHierarchy roots = FindRoots(builder.Graph(), rules);
     ASSERT_EQ(roots.axes.size(), 3U);
-    EXPECT_EQ(roots.axes.back().level, deepest) << fork;
+    EXPECT_EQ(roots.axes.back().level, deepest) << stem << ' ' << fork;
   }
 }
 

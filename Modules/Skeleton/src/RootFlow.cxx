@@ -206,14 +206,16 @@ private:
     m_Flow.nearStem.assign(m_Branches.HubCount(), kNoRoot);
     for (ElementIndex hub = 0; hub < m_Flow.nearStem.size(); ++hub)
     {
-      double least = kStemReach;
+      double least = 1;
       for (std::size_t stem = 0; stem < stems.size() && !m_Branches.EndsAt(hub).empty(); ++stem)
       {
         const Vector3 & place = graph.positions[m_Branches.PointFrom(m_Branches.EndsAt(hub).front(), 0)];
         const auto [point, away] = NearestOf(stems[stem], place);
-        if (away < least * graph.radius[point])
+        const double fused = kFusedReach * m_Branches.BallAt(m_Branches.EndsAt(hub).front());
+        const double reach = std::max(kStemReach * graph.radius[point], graph.radius[point] + fused);
+        if (away < least * reach)
         {
-          least = away / graph.radius[point];
+          least = away / reach;
           m_Flow.nearStem[hub] = static_cast<ElementIndex>(stem);
         }
       }

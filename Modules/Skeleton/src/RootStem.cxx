@@ -133,6 +133,24 @@ public:
     return Take(way);
   }
 
+  /** A way up to where it is one of several roots: thinner than the stem from there on, and not much thicker than
+   *  others that leave next to it. */
+  StemWay
+  UpToRoots(StemWay way) const
+  {
+    const double thickness = Thickness(way);
+    std::size_t  first = way.size();
+    while (first > 1 && m_Branches.Radius(way[first - 1].branch) < kEndOfStem * thickness)
+    {
+      --first;
+    }
+    if (first < way.size() && CountAlikeNear(way, first) >= kWhorl)
+    {
+      way.resize(first);
+    }
+    return way;
+  }
+
   double
   HeightOf(const StemWay & way) const
   {
@@ -240,6 +258,36 @@ private:
       }
     }
     return -Dot(m_Branches.DirectionFrom(arrives), Unit(Minus(ahead, start)));
+  }
+
+  /** The roots about as thick as what follows that leave where a part of a way begins, within the stem's reach. */
+  int
+  CountAlikeNear(const StemWay & way, std::size_t first) const
+  {
+    const SkeletonGraph &     graph = m_Branches.Graph();
+    std::vector<std::uint8_t> isOfStem(m_Worth.size(), 0);
+    for (const BranchEnd & end : way)
+    {
+      isOfStem[end.branch] = 1;
+    }
+    const double    ball = m_Branches.BallAt(way[first]);
+    const Vector3 & place = graph.positions[m_Branches.PointFrom(way[first], 0)];
+    double          thick = 0;
+    for (std::size_t i = first; i < way.size() && thick == 0; ++i)
+    {
+      thick = m_Branches.LengthOf(way[i].branch) > ball ? m_Branches.Radius(way[i].branch) : 0;
+    }
+    int count = 0;
+    for (ElementIndex branch = 0; branch < m_Worth.size(); ++branch)
+    {
+      const bool isAlike =
+        !isOfStem[branch] && m_Branches.LengthOf(branch) > 2 * ball && m_Branches.Radius(branch) > kAsThick * thick;
+      for (std::uint8_t last = 0; isAlike && last < 2; ++last)
+      {
+        count += Distance(place, graph.positions[m_Branches.PointFrom({ branch, last }, 0)]) < kStemReach * ball;
+      }
+    }
+    return count;
   }
 
   bool
@@ -371,7 +419,7 @@ FindStems(const RootBranches & branches, const std::optional<Vector3> & up, cons
     }
     if (!isFurther || !up || finder.HeightOf(way) >= highest - kUpperPart * (highest - lowest))
     {
-      stems.push_back(std::move(way));
+      stems.push_back(finder.UpToRoots(std::move(way)));
     }
   }
   return stems;
