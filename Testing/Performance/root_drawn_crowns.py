@@ -122,6 +122,8 @@ class Crown:
             way[2] += gravity * step / CM
             way /= numpy.linalg.norm(way)
         points = numpy.array(points)
+        if points[:, 2].min() < thick + 2:
+            return  # above the cut through the stem
         radii = numpy.linspace(thick, max(1.0, 0.7 * thick), len(points)) * self.ripple(len(points), 0.05)
         start = self.truth.lines[parent][at]
         reach = self.truth.radii[parent][at]
