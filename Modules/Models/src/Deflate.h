@@ -1,5 +1,5 @@
 #pragma once
-// zlib streams. They are packed here: zlib's choices, and so its bytes, differ between its versions and makers.
+// zlib streams (RFC 1950).
 
 #include <cstddef>
 #include <string>
@@ -11,8 +11,7 @@ namespace voxelcore
 /** What a byte of a zlib stream becomes at most. */
 constexpr std::size_t kMostInflated = 1032;
 
-/** A stream (RFC 1950, RFC 1951) that unpacks to `bytes`, which are fewer than 2^31: the same on every machine. Longer
- *  than they are by a thousandth and 16 at most. */
+/** A stream that unpacks to `bytes`, by zlib at hand: another version of it may choose other bytes. */
 std::string
 Deflate(std::string_view bytes);
 
