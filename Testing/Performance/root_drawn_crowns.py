@@ -6,8 +6,8 @@ A stem 10 to 40 voxels thick with nodes, on each a whorl of roots, some with lat
 open at the top in half of them; thickness that varies along a root; roots that touch where they happen to meet; noise.
 A voxel stands for some 0.4 mm. What the numbers were taken from:
 Postma & Lynch 2011 (maize, as CPlantBox holds it): roots leave the stem at 64 degrees +-6, nodal ones later at 90 +-9;
-  laterals leave at 70 degrees, every 5 to 10 mm, 18 to 60 mm long; they turn by .26 (taproot), .05 (nodal) and .52
-  (laterals) rad / sqrt(cm) at random, and roots down by gravity.
+  laterals leave at 70 degrees, none on the first 20 mm (here 5 to 20), then every 5 to 10 mm, 18 to 60 mm long; they
+  turn by .26 (taproot), .05 (nodal) and .52 (laterals) rad / sqrt(cm) at random, and roots down by gravity.
 Trachsel et al. 2011 (shovelomics of maize): whorls with 4 to 16 roots, at 20 to 70 degrees to the soil.
 """
 import argparse
@@ -49,6 +49,7 @@ class Crown:
         below = self.uniform(2, 6) * radius
         self.axis, self.thick = self.stem(radius, whorls, below)
         self.radius = radius
+        self.basal = self.uniform(0.5, 2) * CM
         self.hollow = (self.uniform(0.4, 0.9) * above, max(2.5, self.uniform(0.2, 0.4) * radius)) \
             if self.random.random() < 0.5 and radius > 7 else None
         end = int(numpy.flatnonzero(self.thick > 0.5 * radius).max())  # what is thinner is the first of the roots
@@ -99,7 +100,10 @@ class Crown:
 
     def lateral(self, parent):
         line = self.truth.lines[parent]
-        at = int(self.random.integers(8, len(line) - 8))
+        first = int(2 * self.basal)
+        if first >= len(line) - 8:
+            return
+        at = int(self.random.integers(first, len(line) - 8))
         along = line[at + 3] - line[at - 3]
         along /= numpy.linalg.norm(along)
         side = self.random.standard_normal(3)
