@@ -20,8 +20,8 @@ void
 ExpectRoundTrip(const std::string & bytes)
 {
   const std::string packed = Deflate(bytes);
-  std::string back(bytes.size() + 1, '\0');
-  uLongf      room = back.size();
+  std::string       back(bytes.size() + 1, '\0');
+  uLongf            room = back.size();
   ASSERT_EQ(uncompress(reinterpret_cast<Bytef *>(back.data()),
                        &room,
                        reinterpret_cast<const Bytef *>(packed.data()),
