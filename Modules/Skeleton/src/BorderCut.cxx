@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace voxelcore
 {
@@ -90,9 +91,9 @@ public:
         if (Beyond(lattice) > kInPlane)
         {
           const Vector3 back = Within(lattice);
-          place =
-            LatticeToPhysical(m_Geometry,
-                              sections.empty() || ContainsInside(voxels, back) ? back : NearestCentre(back, sections));
+          place = LatticeToPhysical(
+            m_Geometry,
+            sections.empty() || ContainsInside(voxels, back) ? back : NearestCentre(back, sections, voxels));
         }
       }
     }
@@ -168,24 +169,22 @@ private:
   /** Places that differ by less, in voxels, are in one plane: rounding is far less. */
   static constexpr double kInPlane = 1e-6;
 
-  /** In the border's plane. */
+  /** In the border's plane, of sections that are cut if there are any. Where what was added leads on so obliquely that
+   *  the plane's place is none of the body, the section's own, half a voxel within. */
   Vector3
-  NearestCentre(const Vector3 & lattice, const std::vector<BorderSection> & sections) const
+  NearestCentre(const Vector3 & lattice, const std::vector<BorderSection> & sections, const VoxelShape & voxels) const
   {
-    Vector3 nearest{};
-    double  least = std::numeric_limits<double>::infinity();
-    for (const BorderSection & section : sections)
-    {
+    const auto inPlane = [&](const BorderSection & section) {
       Vector3 centre = section.centre;
       centre[section.axis] = section.isUpper ? m_High[section.axis] : m_Low[section.axis];
-      const double away = Distance(Times(lattice, m_Geometry.spacing), Times(centre, m_Geometry.spacing));
-      if (section.isCut && away < least)
-      {
-        nearest = centre;
-        least = away;
-      }
-    }
-    return least < std::numeric_limits<double>::infinity() ? nearest : lattice;
+      return centre;
+    };
+    const auto key = [&](const BorderSection & section) {
+      const double away = Distance(Times(lattice, m_Geometry.spacing), Times(inPlane(section), m_Geometry.spacing));
+      return std::pair(!section.isCut, away);
+    };
+    const BorderSection & nearest = *std::ranges::min_element(sections, {}, key);
+    return ContainsInside(voxels, inPlane(nearest)) ? inPlane(nearest) : nearest.centre;
   }
 
   /** Adds a branch to a section's centre, from the point that is nearest to it in its component. */

@@ -15,14 +15,16 @@ constexpr double kLeastDirection = 2; ///< radii; a shorter stretch has no direc
 constexpr double kStemReach =
   1.7; ///< its radii within which roots of a whorl may run fused and still spring from it; 1.2: 3 % less (plants)
 constexpr double kFusedReach = 3; ///< radii of a root beyond the stem, up to which two that part by 40 degrees are one
-  ///< body: r / sin(20 deg); 0: levels of drawn crowns 95.2 %, not 96.2; 6: phantoms 94.9
+                                  ///< body: r / sin(20 deg); 2: levels of drawn crowns 95.5 %, not 96.1; 6: 95.8 and
+                                  ///< those of phantoms 94.9, not 95.5
 constexpr double kStemLikeness = 0.5;  ///< thinner over thicker of branches that follow each other in it (plants)
 constexpr double kStraightReach = 2.5; ///< radii over which it turns or not; by branches of nodes: top missed (maize)
-constexpr double kEndOfStem = 0.7; ///< of its thickness; what is thinner may be one of the roots below (drawn crowns:
-                                   ///< levels 94.7 % without, 95.3 with 0.5; 0.85: stem 86 %, plants)
-constexpr double kAsThick = 0.6;   ///< thickness of a root over that of what goes on: not a lateral but its like; 0.5:
-                                   ///< taproots of phantoms are cut
-constexpr int    kWhorl = 2;       ///< such roots beside it; with one, it is a lateral of a taproot
+constexpr double kEndOfStem =
+  0.5;                           ///< of its thickness; what is thinner may be one of the roots below; 0.7: maize loses
+                                 ///< the lower 15 % of its column, drawn crowns gain .7 % of their levels
+constexpr double kAsThick = 0.6; ///< thickness of a root over that of what goes on: not a lateral but its like; 0.5:
+                                 ///< taproots of phantoms are cut
+constexpr int    kWhorl = 2;     ///< such roots beside it; with one, it is a lateral of a taproot
 constexpr double kLeastOfStems = 0.6; ///< thickness of a further stem over the first's
 constexpr double kUpperPart = 0.25;   ///< of the plant's height, in which further stems begin
 
