@@ -17,9 +17,7 @@
 #include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include <chrono>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <set>
 #include <utility>
@@ -380,22 +378,4 @@ TEST(MedialModel, PolygonNormalsPointTheSameWayInEveryGeometry)
     }
     EXPECT_EQ(part.core.positions[3], LatticeToPhysical(geometry, { 2, 2, 3 }));
   }
-}
-
-TEST(MedialModel, WritingIsFastBesideComputing)
-{
-  const TemporaryFolder folder;
-  const MedialModel     model = RandomModel(11, 68, 1); // about 200,000 faces
-  const double          faces = static_cast<double>(model.parts[0].core.cells.FaceCount());
-  double                best = 1e9;
-  for (int run = 0; run < 3; ++run)
-  {
-    const auto start = std::chrono::steady_clock::now();
-    WriteModel(folder / "a.vtp", "a.vtp", model, { .triangles = false, .keepEdges = true });
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  std::cout << faces << " faces, " << static_cast<double>(std::filesystem::file_size(folder / "a.vtp")) / 1e6
-            << " MB in " << best << " s\n";
-  const double computing = faces / 1.3 / 50000; // a core has about 1.3 faces a boundary vertex
-  EXPECT_LT(best, 0.15 * computing);
 }

@@ -19,9 +19,8 @@ constexpr double kFusedReach = 3; ///< radii of a root beyond the stem, up to wh
                                   ///< those of phantoms 94.9, not 95.5
 constexpr double kStemLikeness = 0.5;  ///< thinner over thicker of branches that follow each other in it (plants)
 constexpr double kStraightReach = 2.5; ///< radii over which it turns or not; by branches of nodes: top missed (maize)
-constexpr double kEndOfStem =
-  0.5;                           ///< of its thickness; what is thinner may be one of the roots below; 0.7: maize loses
-                                 ///< the lower 15 % of its column, drawn crowns gain .7 % of their levels
+constexpr double kEndOfStem = 0.35;    ///< of its thickness; what is thinner may be one of the roots below. 0.5: maize
+                                       ///< loses the lower 9 % of its column; 0: drawn crowns .3 % of their levels
 constexpr double kAsThick = 0.6; ///< thickness of a root over that of what goes on: not a lateral but its like; 0.5:
                                  ///< taproots of phantoms are cut
 constexpr int    kWhorl = 2;     ///< such roots beside it; with one, it is a lateral of a taproot
