@@ -1,6 +1,7 @@
 #include "voxelcore/StraightenJob.h"
 
 #include "JobTools.h"
+#include "ThicknessSteps.h"
 
 #include "voxelcore/CsvText.h"
 #include "voxelcore/Error.h"
@@ -35,12 +36,6 @@ constexpr double kMostSquares = 32768;  // along a side of a plane
 constexpr double kMostPlanes = 1 << 20; // in a volume
 constexpr double kWhole = 1 << 24;      // up to which float32 holds every whole number
 constexpr double kRadii = 2;            // a vessel and as much around it
-
-fs::path
-ColumnsBeside(const fs::path & table)
-{
-  return (table.parent_path() / table.stem()).string() + "_columns.json";
-}
 
 void
 CheckFiles(const StraightenOptions & options, OutputTransaction & transaction)
@@ -346,12 +341,7 @@ RunStraightenJob(const StraightenOptions & options, const JobContext & given)
   }
   const double  least = *std::ranges::min_element(scan.spacing);
   const Vector3 spacing = options.spacing.value_or(Vector3{ least, least, least });
-  double        length = 0;
-  for (std::size_t i = 1; i < way.places.size(); ++i)
-  {
-    length += Distance(way.places[i], way.places[i - 1]);
-  }
-  if (!(length / spacing[2] < kMostPlanes))
+  if (!(WayLength(way) / spacing[2] < kMostPlanes))
   {
     throw UsageError("the volume would have more than a million planes; give a coarser --spacing");
   }

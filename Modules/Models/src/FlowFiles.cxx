@@ -205,8 +205,8 @@ WriteFlowCsv(const std::filesystem::path &         segments,
 std::string
 FlowColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"segments\": " + ColumnsJson(kSegmentColumns, unit) +
-         ",\n  \"nodes\": " + ColumnsJson(kNodeColumns, unit) + "\n}\n";
+  return TablesJson(
+    { { "segments", ColumnsJson(kSegmentColumns, unit) }, { "nodes", ColumnsJson(kNodeColumns, unit) } });
 }
 
 void

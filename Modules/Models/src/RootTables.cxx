@@ -371,9 +371,10 @@ RootColumnsJson(SpatialUnit unit)
   std::string roots = ColumnsJson(kRootColumns, unit);
   roots.replace(roots.rfind("\n  }"), std::string::npos, ",");
   roots += ColumnsJson(kRootNames, unit).substr(1);
-  return "{\n  \"roots\": " + roots + ",\n  \"levels\": " + levels +
-         ",\n  \"plant\": " + ColumnsJson(kPlantColumns, unit) +
-         ",\n  \"profile\": " + ColumnsJson(kProfileColumns, unit) + "\n}\n";
+  return TablesJson({ { "roots", roots },
+                      { "levels", levels },
+                      { "plant", ColumnsJson(kPlantColumns, unit) },
+                      { "profile", ColumnsJson(kProfileColumns, unit) } });
 }
 
 } // namespace voxelcore

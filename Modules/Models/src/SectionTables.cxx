@@ -232,8 +232,8 @@ WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfP
 std::string
 SectionColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"sections\": " + ColumnsJson(kSectionColumns, unit) +
-         ",\n  \"lesions\": " + ColumnsJson(kLesionColumns, unit) + "\n}\n";
+  return TablesJson(
+    { { "sections", ColumnsJson(kSectionColumns, unit) }, { "lesions", ColumnsJson(kLesionColumns, unit) } });
 }
 
 } // namespace voxelcore

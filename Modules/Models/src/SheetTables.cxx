@@ -339,8 +339,7 @@ WriteSheetGraphMl(const std::filesystem::path & path, const SheetModel & model)
 std::string
 SheetColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"sheets\": " + ColumnsJson(kSheetColumns, unit) + ",\n  \"seams\": " + ColumnsJson(kSeamColumns, unit) +
-         "\n}\n";
+  return TablesJson({ { "sheets", ColumnsJson(kSheetColumns, unit) }, { "seams", ColumnsJson(kSeamColumns, unit) } });
 }
 
 SheetTotals

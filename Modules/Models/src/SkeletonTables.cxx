@@ -280,9 +280,13 @@ WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model
 std::string
 SkeletonColumnsJson(SpatialUnit unit, bool network)
 {
-  return "{\n  \"branches\": " + ColumnsJson(kBranchColumns, unit) +
-         ",\n  \"summary\": " + ColumnsJson(kSummaryColumns, unit) +
-         (network ? ",\n  \"contacts\": " + ColumnsJson(kContactColumns, unit) : std::string()) + "\n}\n";
+  std::vector<std::pair<const char *, std::string>> tables{ { "branches", ColumnsJson(kBranchColumns, unit) },
+                                                            { "summary", ColumnsJson(kSummaryColumns, unit) } };
+  if (network)
+  {
+    tables.emplace_back("contacts", ColumnsJson(kContactColumns, unit));
+  }
+  return TablesJson(tables);
 }
 
 } // namespace voxelcore

@@ -86,8 +86,7 @@ WriteMappedCsv(const std::filesystem::path & path, std::span<const MappedPoint> 
 std::string
 StraightColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"planes\": " + ColumnsJson(kPlaneColumns, unit) +
-         ",\n  \"points\": " + ColumnsJson(kPointColumns, unit) + "\n}\n";
+  return TablesJson({ { "planes", ColumnsJson(kPlaneColumns, unit) }, { "points", ColumnsJson(kPointColumns, unit) } });
 }
 
 } // namespace voxelcore

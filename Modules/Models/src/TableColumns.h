@@ -6,6 +6,8 @@
 #include "voxelcore/SpatialUnit.h"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace voxelcore
 {
@@ -50,6 +52,18 @@ ColumnsJson(const Columns & columns, SpatialUnit unit)
             (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
   }
   return json + "\n  }";
+}
+
+/** What the columns of several tables mean, as JSON: names of tables, each with its ColumnsJson(). */
+inline std::string
+TablesJson(const std::vector<std::pair<const char *, std::string>> & tables)
+{
+  std::string json = "{";
+  for (const auto & [name, columns] : tables)
+  {
+    json += (json.size() > 1 ? ",\n  \"" : "\n  \"") + std::string(name) + "\": " + columns;
+  }
+  return json + "\n}\n";
 }
 
 } // namespace voxelcore

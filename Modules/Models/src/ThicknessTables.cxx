@@ -147,8 +147,8 @@ WriteThicknessVtp(const std::filesystem::path &         path,
 std::string
 ThicknessColumnsJson(SpatialUnit unit)
 {
-  return "{\n  \"thickness\": " + ColumnsJson(kNumberColumns, unit) +
-         ",\n  \"histogram\": " + ColumnsJson(kHistogramColumns, unit) + "\n}\n";
+  return TablesJson(
+    { { "thickness", ColumnsJson(kNumberColumns, unit) }, { "histogram", ColumnsJson(kHistogramColumns, unit) } });
 }
 
 } // namespace voxelcore

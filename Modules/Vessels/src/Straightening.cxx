@@ -73,6 +73,17 @@ LineOf(const SkeletonGraph & graph, ElementIndex branch)
   return line;
 }
 
+Line
+LineOf(const SkeletonWay & way)
+{
+  Line line;
+  for (std::size_t i = 0; i < way.places.size(); ++i)
+  {
+    line.Add(way.places[i], way.radius[i]);
+  }
+  return line;
+}
+
 /** Adds a part of a branch, from one length along it to another, that may be less. */
 void
 Append(SkeletonWay & way, const Line & line, ElementIndex branch, double from, double to)
@@ -233,11 +244,7 @@ public:
     : m_IsClosed(way.isClosed)
     , m_LeastWindow(kLeastWindow * side)
   {
-    Line line;
-    for (std::size_t i = 0; i < way.places.size(); ++i)
-    {
-      line.Add(way.places[i], way.radius[i]);
-    }
+    const Line line = LineOf(way);
     m_Length = line.arc.back();
     m_Count = static_cast<std::size_t>(std::max(8.0, std::ceil(m_Length / (kDense * side))));
     for (std::size_t i = 0; i <= m_Count; ++i)
@@ -449,6 +456,12 @@ WayBetween(const SkeletonGraph & graph, const Vector3 & from, const Vector3 & to
   return way;
 }
 
+double
+WayLength(const SkeletonWay & way)
+{
+  return LineOf(way).arc.back();
+}
+
 StraightAxis
 StraightenWay(const SkeletonWay & way, double side, double step)
 {
@@ -517,11 +530,7 @@ StraightenWay(const SkeletonWay & way, double side, double step)
     }
   }
   // Branches are those of the way at the same share of its length, which smoothing changes little.
-  std::vector<double> wayArc{ 0 };
-  for (std::size_t i = 1; i < way.places.size(); ++i)
-  {
-    wayArc.push_back(wayArc.back() + Distance(way.places[i - 1], way.places[i]));
-  }
+  const std::vector<double> wayArc = LineOf(way).arc;
   for (AxisPlane & plane : axis.planes)
   {
     const auto i = std::ranges::lower_bound(wayArc, parameterAt(plane.arc)) - wayArc.begin();

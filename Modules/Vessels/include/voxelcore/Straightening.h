@@ -36,6 +36,10 @@ WayAlong(const SkeletonGraph & graph, std::span<const ElementIndex> branches);
 SkeletonWay
 WayBetween(const SkeletonGraph & graph, const Vector3 & from, const Vector3 & to);
 
+/** Before it is smoothed, mm. */
+double
+WayLength(const SkeletonWay & way);
+
 /** A plane across the axis. The three directions are of unit length, at right angles and right-handed. */
 struct AxisPlane
 {
