@@ -232,9 +232,9 @@ Examples:
 
 constexpr std::string_view kStraightenFooter =
   R"(The result is a straight volume: its third axis is the length along the vessel, and its first two lie across it.
-Planes do not turn about the axis, so a straight feature of the vessel stays straight. Their middle is the axis, the
-skeleton smoothed over twice its radius to each side. Grey scans and labels of any grid do, if they lie where the
-skeleton's scan lies. Guide: straightening.md
+Planes do not turn about the axis, so a straight feature of the vessel stays straight. The axis runs through their
+middle: it is the skeleton, smoothed over twice its radius to each side. The scan may be grey or labels, on any grid, as
+long as it lies in the same place as the scan of the skeleton. Guide: straightening.md
 
 --table says where each plane lies. A point (across, up, arc) of the straight volume is place + across * its first
 direction + up * its second one, in LPS mm. --points maps points there or back.

@@ -42,8 +42,8 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     "",
     false,
     kBranches,
-    "Begin the SWC at the soma: the greatest ball that holds a point (LPS mm), or of each label (auto); it has type 1, "
-    "and branches begin at its surface",
+    "Begin the SWC at the soma, a point of type 1: the greatest ball of each label (auto), or the greatest that holds "
+    "a point (LPS mm); branches begin at its surface",
     {},
     true },
   { "sections",
