@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Holds the mirror: every public header Modules/<Module>/include/voxelcore/<File>.h has its tests in
-# Testing/<Module>/<File>GTest.cxx, and these are built. usage: mirrors.sh [FOLDER WITH Modules/ AND Testing/]
+# Holds the mirror: every public header Modules/<Group>/<Room>/include/voxelcore/<Room>/<File>.h has its tests
+# in Testing/<Group>/<Room>/<File>GTest.cxx, and these are built. usage: mirrors.sh [FOLDER WITH Modules/ AND Testing/]
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/..}"
 
 headers=0
 bad=0
 complain() { echo "$1" >&2; bad=1; }
-for header in Modules/*/include/voxelcore/*.h; do
+for header in Modules/*/*/include/voxelcore/*/*.h; do
   headers=$((headers + 1))
   module=${header#Modules/}
-  module=${module%%/*}
+  module=${module%%/include/*}
+  [[ $header = Modules/$module/include/voxelcore/${module#*/}/* ]] || complain "$header: lies in another room's folder"
   test=$(basename "$header" .h)GTest.cxx
   if [ ! -e "Testing/$module/$test" ]; then
     complain "$header: lacks its tests, Testing/$module/$test"

@@ -119,12 +119,13 @@ check_program() {
 objects_in() { find "${@/#/$build/}" -path '*.dir/*' -name '*.cxx.o' "${filter[@]}" | sort; }
 filter=(-not -path '*itk_reader*')
 # A build that went on may hold modules that the program does not.
-mapfile -t modules < <(ninja -C "$build" -t commands voxelcore | tail -1 | grep -oE '\bModules/[A-Za-z]+' | sort -u)
+mapfile -t modules < <(ninja -C "$build" -t commands voxelcore | tail -1 |
+  grep -oE '\bModules/[A-Za-z]+/[A-Za-z]+' | sort -u)
 mapfile -t objects < <(objects_in "${modules[@]}" Applications/voxelcore)
 check_program voxelcore "${objects[@]}"
-if [ -e "$build/Modules/ItkReader/CMakeFiles/voxelcore_itk_reader.dir" ]; then
-  mapfile -t objects < <(objects_in Modules/Lattice Modules/Shape)
+if [ -e "$build/Modules/Scans/ItkReader/CMakeFiles/voxelcore_itk_reader.dir" ]; then
+  mapfile -t objects < <(objects_in Modules/Core/Base Modules/Core/Lattice Modules/Core/Shape Modules/Scans/Labels)
   filter=(-path '*itk_reader*')
-  mapfile -t -O "${#objects[@]}" objects < <(objects_in Modules/ItkReader)
+  mapfile -t -O "${#objects[@]}" objects < <(objects_in Modules/Scans/ItkReader)
   check_program voxelcore_itk_reader "${objects[@]}"
 fi

@@ -7,8 +7,8 @@ set -euo pipefail
 compiler=$1
 build=$2
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-modules="Lattice;Shape;Complex;Delaunay;Blocks;VoxelCore;Refinement;Skeleton;Thickness;Voxelization;Phantom"
-modules+=";Verification;Certified;Formats;ItkReader;Imaging"
+modules="Base;Lattice;Complex;Shape;Delaunay;VoxelCore;Refinement;Skeleton;Verification;Certified"
+modules+=";Labels;Masks;Formats;ItkReader;Imaging;Blocks;Meshes;Phantom;Thickness;Sheets;Roots"
 options=()
 grep -qF "MODULES: $modules" "$source/.github/workflows/build.yml" ||
   { echo "portable.sh: .github/workflows/build.yml builds other modules" >&2; exit 1; }
@@ -32,7 +32,7 @@ cmake --build "$build"
 only='open|openat|close|read|write|lseek|fstat|stat|pipe|pipe2|fork|vfork|posix_spawn|waitpid|kill|prctl|flock|madvise'
 only+='|mmap|posix_fadvise|fallocate|gethostname|getpid|sysconf|socketpair|send|dladdr|getrusage|setrlimit|mallopt'
 for module in ${modules//;/ }; do
-  library=$build/Modules/$module/libVoxelCore$module.a
+  library=$(ls "$build"/Modules/*/"$module/libVoxelCore$module.a")
   [ "$module" != Imaging ] || continue
   found=$(nm -u "$library" 2>/dev/null | awk '{ print $2 }' | grep -xE "($only)(64)?" | sort -u || true)
   [ -z "$found" ] || fail "$module calls $(echo $found)"

@@ -58,7 +58,9 @@ cmake -S "$source" -B "$build" -G Ninja -DBUILD_TESTING=ON \
 
 targets=()
 for module in ${tested//;/ }; do
-  [ ! -e "$source/Testing/$module/CMakeLists.txt" ] || targets+=("Testing/$module/all")
+  for folder in "$module" Core/"$module" Scans/"$module" Models/"$module" Program/"$module" Uses/"$module"; do
+    [ ! -e "$source/Testing/$folder/CMakeLists.txt" ] || targets+=("Testing/$folder/all")
+  done
 done
 left_out="AreRefusedByThePythonModule" # Python is not built so
 if [[ ";$tested;" == *";Applications;"* ]]; then

@@ -1,7 +1,7 @@
 #include "ArrayLabels.h"
 
-#include "voxelcore/Error.h"
-#include "voxelcore/TextFields.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/TextFields.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 // From a strided array in memory to voxel shapes.
 
-#include "voxelcore/LabelAssembler.h"
-#include "voxelcore/Progress.h"
+#include "voxelcore/Base/Progress.h"
+#include "voxelcore/Labels/LabelAssembler.h"
 
 #include <array>
 #include <cstddef>

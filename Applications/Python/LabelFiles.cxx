@@ -1,11 +1,11 @@
 #include "LabelFiles.h"
 
-#include "voxelcore/Error.h"
-#include "voxelcore/OutputNames.h"
-#include "voxelcore/OutputTransaction.h"
-#include "voxelcore/SkeletonFiles.h"
-#include "voxelcore/SkeletonTargets.h"
-#include "voxelcore/StagedModel.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Jobs/OutputNames.h"
+#include "voxelcore/Jobs/OutputTransaction.h"
+#include "voxelcore/Jobs/SkeletonFiles.h"
+#include "voxelcore/Jobs/SkeletonTargets.h"
+#include "voxelcore/Jobs/StagedModel.h"
 
 #include <utility>
 

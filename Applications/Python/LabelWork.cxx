@@ -1,14 +1,14 @@
 #include "LabelWork.h"
 
-#include "voxelcore/CoreJob.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/GreyScan.h"
-#include "voxelcore/LabelLoop.h"
-#include "voxelcore/NetworkLabels.h"
-#include "voxelcore/Parameters.h"
-#include "voxelcore/RefineStage.h"
-#include "voxelcore/ResultRecords.h"
-#include "voxelcore/SkeletonJob.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Jobs/LabelLoop.h"
+#include "voxelcore/Jobs/NetworkLabels.h"
+#include "voxelcore/Jobs/RefineStage.h"
+#include "voxelcore/Jobs/SkeletonJob.h"
+#include "voxelcore/Labels/GreyScan.h"
+#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Report/ResultRecords.h"
 
 #include <optional>
 #include <utility>

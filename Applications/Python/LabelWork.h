@@ -4,12 +4,12 @@
 #include "ArrayLabels.h"
 #include "PackedShape.h"
 
-#include "voxelcore/CoreReport.h"
-#include "voxelcore/MedialModel.h"
-#include "voxelcore/Parameters.h"
-#include "voxelcore/SkeletonModel.h"
-#include "voxelcore/ThicknessFiles.h"
-#include "voxelcore/VerifyJob.h"
+#include "voxelcore/Jobs/VerifyJob.h"
+#include "voxelcore/Models/MedialModel.h"
+#include "voxelcore/Models/SkeletonModel.h"
+#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Report/CoreReport.h"
+#include "voxelcore/Thickness/ThicknessFiles.h"
 
 #include <memory>
 #include <string>

@@ -4,9 +4,9 @@
 #include "OwnThread.h"
 #include "Pickling.h"
 #include "PythonWords.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/Parameters.h"
-#include "voxelcore/SkeletonFiles.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Jobs/SkeletonFiles.h"
+#include "voxelcore/Options/Parameters.h"
 
 #include <pybind11/stl.h>
 

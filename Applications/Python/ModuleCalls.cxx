@@ -4,10 +4,10 @@
 #include "LabelWork.h"
 #include "ModuleParts.h"
 #include "OwnThread.h"
-#include "voxelcore/CertifiedSkeleton.h"
-#include "voxelcore/CertifiedThickness.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/Progress.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Progress.h"
+#include "voxelcore/Certified/CertifiedSkeleton.h"
+#include "voxelcore/Certified/CertifiedThickness.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

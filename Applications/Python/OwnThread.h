@@ -5,7 +5,7 @@
 // it does not stop in time. A new thread for each call also makes the module safe after a fork: OpenMP keeps its
 // workers with the thread that started them, and these workers do not exist in the child.
 
-#include "voxelcore/Progress.h"
+#include "voxelcore/Base/Progress.h"
 
 #include <condition_variable>
 #include <exception>

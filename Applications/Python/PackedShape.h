@@ -1,7 +1,7 @@
 #pragma once
 // A voxel shape in little memory, for as long as its core is held.
 
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/Shape/VoxelShape.h"
 
 #include <cstdint>
 #include <vector>

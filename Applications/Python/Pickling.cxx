@@ -1,9 +1,9 @@
 #include "Pickling.h"
 
-#include "voxelcore/SoundCore.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/SoundComplex.h"
-#include "voxelcore/SoundSkeleton.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Complex/SoundComplex.h"
+#include "voxelcore/Skeleton/SoundSkeleton.h"
+#include "voxelcore/VoxelCore/SoundCore.h"
 
 #include <algorithm>
 #include <cmath>

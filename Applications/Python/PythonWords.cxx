@@ -1,6 +1,6 @@
 #include "PythonWords.h"
 
-#include "voxelcore/Parameters.h"
+#include "voxelcore/Options/Parameters.h"
 
 #include <algorithm>
 #include <regex>

@@ -1,5 +1,5 @@
 #include "Texts.h"
-#include "voxelcore/Text.h"
+#include "voxelcore/Base/Text.h"
 
 namespace voxelcore
 {

@@ -1,6 +1,6 @@
 #include "Texts.h"
 
-#include "voxelcore/CoreReport.h"
+#include "voxelcore/Report/CoreReport.h"
 
 #include <algorithm>
 #include <optional>

@@ -3,10 +3,10 @@
 
 #include "Console.h"
 #include "Signals.h"
-#include "voxelcore/CoreJob.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/SkeletonJob.h"
-#include "voxelcore/SlicerModule.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Jobs/SkeletonJob.h"
+#include "voxelcore/Options/SlicerModule.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -2,8 +2,8 @@
 
 #include "HelpFormatter.h"
 #include "UnknownNames.h"
-#include "voxelcore/CoreReport.h"
-#include "voxelcore/Error.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Report/CoreReport.h"
 
 #include <CLI/CLI.hpp>
 #include <map>

@@ -1,7 +1,7 @@
 #pragma once
 // The command line as the parameter table describes it.
 
-#include "voxelcore/Parameters.h"
+#include "voxelcore/Options/Parameters.h"
 
 #include <optional>
 #include <string>

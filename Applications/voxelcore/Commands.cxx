@@ -1,10 +1,10 @@
 #include "Commands.h"
 
-#include "voxelcore/Admission.h"
-#include "voxelcore/BatchJob.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/ReportTable.h"
-#include "voxelcore/Thumbnail.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Cohort/Admission.h"
+#include "voxelcore/Cohort/BatchJob.h"
+#include "voxelcore/Cohort/Thumbnail.h"
+#include "voxelcore/Report/ReportTable.h"
 
 namespace voxelcore
 {

@@ -4,7 +4,7 @@
 #include "CommandLine.h"
 #include "Console.h"
 #include "ProgressPrinter.h"
-#include "voxelcore/JobContext.h"
+#include "voxelcore/Jobs/JobContext.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "Console.h"
 
-#include "voxelcore/PlainText.h"
+#include "voxelcore/Base/PlainText.h"
 
 #include <cerrno>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 // Where the system gives large pages on request only (Debian's default), this asks for them. Programs decide that, not
 // libraries, so that this stands here.
 
-#include "voxelcore/EightLanes.h"
+#include "voxelcore/Base/EightLanes.h"
 
 #include <cstdint>
 #include <cstdlib>

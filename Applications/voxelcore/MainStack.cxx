@@ -1,6 +1,6 @@
 #include "MainStack.h"
 
-#include "voxelcore/Error.h"
+#include "voxelcore/Base/Error.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
 #include "Signals.h"
 
-#include "voxelcore/EightLanes.h"
+#include "voxelcore/Base/EightLanes.h"
 
 #include <atomic>
 #include <csignal>

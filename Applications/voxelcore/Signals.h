@@ -1,7 +1,7 @@
 #pragma once
 // What the program does when it is interrupted, or when a library takes it down.
 
-#include "voxelcore/OutputTransaction.h"
+#include "voxelcore/Jobs/OutputTransaction.h"
 
 namespace voxelcore
 {

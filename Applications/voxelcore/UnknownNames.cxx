@@ -1,7 +1,7 @@
 #include "UnknownNames.h"
 
-#include "voxelcore/DidYouMean.h"
-#include "voxelcore/Error.h"
+#include "voxelcore/Base/DidYouMean.h"
+#include "voxelcore/Base/Error.h"
 
 #include <algorithm>
 #include <vector>

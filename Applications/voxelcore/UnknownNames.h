@@ -1,7 +1,7 @@
 #pragma once
 // Finds mistyped commands and options before the parser does, which would say less.
 
-#include "voxelcore/Parameters.h"
+#include "voxelcore/Options/Parameters.h"
 
 namespace voxelcore
 {

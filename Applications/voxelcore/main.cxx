@@ -3,9 +3,9 @@
 #include "Commands.h"
 #include "MainStack.h"
 #include "Signals.h"
-#include "voxelcore/Admission.h"
-#include "voxelcore/Error.h"
-#include "voxelcore/OutputNames.h"
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Cohort/Admission.h"
+#include "voxelcore/Jobs/OutputNames.h"
 
 #include <chrono>
 #include <cstdio>

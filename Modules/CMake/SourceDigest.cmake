@@ -3,7 +3,8 @@
 # cohort
 # that is started again knows whether another state of the program made what lies there, also between two versions and
 # where there is no git.
-file(GLOB_RECURSE files RELATIVE "${MODULES}" "${MODULES}/*/include/*" "${MODULES}/*/src/*" "${MODULES}/*/itk/*")
+file(GLOB_RECURSE files RELATIVE "${MODULES}" "${MODULES}/*/*/include/*" "${MODULES}/*/*/inner/*"
+  "${MODULES}/*/*/src/*" "${MODULES}/*/*/tables/*" "${MODULES}/*/*/job/*" "${MODULES}/*/*/itk/*")
 list(SORT files)
 set(all "")
 foreach(file ${files})

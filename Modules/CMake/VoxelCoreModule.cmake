@@ -19,6 +19,9 @@ function(voxelcore_library target)
   add_library(VoxelCore::${name} ALIAS ${target})
   target_include_directories(${target} PUBLIC
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/inner") # headers for other rooms, not for users
+    target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/inner>")
+  endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
@@ -28,18 +31,22 @@ function(voxelcore_library target)
 endfunction()
 
 # voxelcore_module(Name SOURCES a.cxx ... PUBLIC targets... PRIVATE targets...)
-# Builds Modules/<Name> as the static library VoxelCore<Name>, alias VoxelCore::<Name>.
+# Builds the room at hand as the static library VoxelCore<Name>, alias VoxelCore::<Name>; of a street `job`, which is
+# more than mathematics, as VoxelCore<Name>Job.
 function(voxelcore_module name)
   cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   voxelcore_library(VoxelCore${name} ${arg_SOURCES})
   target_link_libraries(VoxelCore${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
-# voxelcore_tests(Name SOURCES aGTest.cxx ... LIBRARIES targets... [ENVIRONMENT A=b ...])
-# One test program per module; its tests carry the module's name as CTest label.
+# voxelcore_tests(Name [LABEL Room] SOURCES aGTest.cxx ... LIBRARIES targets... [ENVIRONMENT A=b ...])
+# One test program a library; its tests carry the room's name as CTest label.
 # Tests of a suite whose name starts with Heavy (with parameters: Prefix/Heavy) carry the label heavy instead.
 function(voxelcore_tests name)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL" "SOURCES;LIBRARIES;ENVIRONMENT" ${ARGN})
+  if(NOT arg_LABEL)
+    set(arg_LABEL ${name})
+  endif()
   set(target VoxelCore${name}Tests)
   add_executable(${target} ${arg_SOURCES})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/Testing")
@@ -49,7 +56,7 @@ function(voxelcore_tests name)
   # time.
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(${target} TEST_FILTER "-Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS ${name} TIMEOUT 600 ENVIRONMENT "${arg_ENVIRONMENT}")
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 ENVIRONMENT "${arg_ENVIRONMENT}")
   gtest_discover_tests(${target} TEST_FILTER "Heavy*:*/Heavy*" DISCOVERY_TIMEOUT 60 TEST_LIST ${target}_heavy
     PROPERTIES LABELS heavy TIMEOUT 3600 ENVIRONMENT "${arg_ENVIRONMENT}")
 endfunction()

@@ -7,13 +7,16 @@ set(VOXELCORE_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/VoxelCore")
 # A component of find_package(VoxelCore COMPONENTS ...) is a set of libraries and the components it builds on; what is
 # not built is left out.
 set(VOXELCORE_COMPONENTS Core Imaging Models Display Jobs ITK VTK)
-set(component_Core Lattice Shape Complex Delaunay Blocks VoxelCore Refinement Skeleton Vessels Thickness Voxelization
-  Phantom Verification Certified Core)
+set(component_Core ${VOXELCORE_CORE_ROOMS} Core)
 set(component_Imaging Formats ItkReader Imaging)
-foreach(component Models Display ITK VTK)
+foreach(component Display ITK VTK)
   set(component_${component} ${component})
 endforeach()
+set(component_Models Models VesselsTables)
 set(component_Jobs Report Jobs Options)
+foreach(street ${VOXELCORE_ROOMS_Uses})
+  list(APPEND component_Jobs ${street}Job)
+endforeach()
 
 set(VOXELCORE_BUILT_COMPONENTS "")
 foreach(component ${VOXELCORE_COMPONENTS})
@@ -38,15 +41,16 @@ endif()
 
 # Only public headers lie in an include folder. Those of ITK and VTK classes need these libraries.
 foreach(module ${VOXELCORE_MODULES})
-  if(EXISTS "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore")
-    install(DIRECTORY "${PROJECT_SOURCE_DIR}/Modules/${module}/include/voxelcore"
+  if(EXISTS "${PROJECT_SOURCE_DIR}/Modules/${VOXELCORE_FOLDER_${module}}/include/voxelcore")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/Modules/${VOXELCORE_FOLDER_${module}}/include/voxelcore"
       DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development FILES_MATCHING PATTERN "*.h")
   endif()
   foreach(library ITK VTK)
     if(TARGET VoxelCore${library})
       string(TOLOWER ${library} prefix)
-      file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/Modules/${module}/include/${prefix}*.h"
-        "${PROJECT_SOURCE_DIR}/Modules/${module}/include/${prefix}*.hxx")
+      file(GLOB headers CONFIGURE_DEPENDS
+          "${PROJECT_SOURCE_DIR}/Modules/${VOXELCORE_FOLDER_${module}}/include/${prefix}*.h"
+        "${PROJECT_SOURCE_DIR}/Modules/${VOXELCORE_FOLDER_${module}}/include/${prefix}*.hxx")
       install(FILES ${headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT development)
     endif()
   endforeach()

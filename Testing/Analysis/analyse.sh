@@ -2,8 +2,8 @@
 # Looks through the sources of modules and programs without running them. Non-zero when something is found that is
 # neither mended nor on the kept list: cppcheck.txt, and for clang-tidy .clang-tidy and NOLINT beside the line, each
 # with its reason.
-# usage: analyse.sh cppcheck|clang-tidy BUILD_DIR [FOLDER...]    say Modules/Lattice; all of Modules and Applications by
-# default; exit 77: a tool is missing
+# usage: analyse.sh cppcheck|clang-tidy BUILD_DIR [FOLDER...]    say Modules/Core/Base; all of Modules and Applications
+# by default; exit 77: a tool is missing
 set -euo pipefail
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 kind=$1
@@ -25,8 +25,9 @@ case "$kind" in
   cppcheck)
     command -v cppcheck >/dev/null || { echo "analyse.sh: no cppcheck here" >&2; exit 77; }
     include=()
-    for folder in Modules/*/; do
-      include+=(-I "${folder}include" -I "${folder}src")
+    for folder in Modules/*/*/; do
+      include+=(-I "${folder}include" -I "${folder}inner" -I "${folder}src" -I "${folder}job" \
+        -I "${folder}tables")
     done
     nice cppcheck -q -j "$jobs" --std=c++20 --language=c++ --enable=warning,performance,portability --inline-suppr \
       --suppressions-list=Testing/Analysis/cppcheck.txt --template='{file}:{line}: {severity} {id}: {message}' \
@@ -42,7 +43,8 @@ case "$kind" in
       -DCMAKE_BUILD_TYPE=Debug -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_C_COMPILER=clang \
       -DCMAKE_CXX_COMPILER=clang++ >/dev/null
     # A header that the build makes: without it a source is read in part, and what is found is wrong.
-    cmake "-DMODULES=$source/Modules" "-DOUT=$build/Modules/Report/SourceDigest.h" -P Modules/CMake/SourceDigest.cmake
+    cmake "-DMODULES=$source/Modules" "-DOUT=$build/Modules/Program/Report/SourceDigest.h" \
+      -P Modules/CMake/SourceDigest.cmake
     # What is compiled, also by the build itself; sources of the parts that are left out have no command.
     python3 - "$source" "$build" "${folders[@]}" >"$build/sources" <<'PYTHON'
 import json, os, sys

@@ -5,7 +5,7 @@
 #include "Program.h"
 #include "Scans.h"
 
-#include "voxelcore/MedialModel.h"
+#include "voxelcore/Models/MedialModel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include "VoxelCoreTesting/Random.h"
 
-#include "voxelcore/Error.h"
+#include "voxelcore/Base/Error.h"
 
 #include <csignal>
 #include <cstdio>

@@ -4,7 +4,7 @@
 
 #include "ReadByKind.h"
 
-#include "voxelcore/Error.h"
+#include "voxelcore/Base/Error.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -7,10 +7,10 @@
 #include "VoxelCoreTesting/BruteCore.h"
 #include "VoxelCoreTesting/Shapes.h"
 
-#include "voxelcore/Certified.h"
-#include "voxelcore/ImageGeometry.h"
-#include "voxelcore/Verification.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Certified/Certified.h"
+#include "voxelcore/Lattice/ImageGeometry.h"
+#include "voxelcore/Verification/Verification.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <cmath>
 #include <cstdlib>

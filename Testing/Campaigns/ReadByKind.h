@@ -1,12 +1,12 @@
 #pragma once
 
-#include "voxelcore/LabelVolume.h"
-#include "voxelcore/Manifest.h"
-#include "voxelcore/MedialModel.h"
-#include "voxelcore/PlainSurface.h"
-#include "voxelcore/ReadMesh.h"
-#include "voxelcore/SkeletonModel.h"
-#include "voxelcore/VoxelChanges.h"
+#include "voxelcore/Cohort/Manifest.h"
+#include "voxelcore/Imaging/LabelVolume.h"
+#include "voxelcore/Masks/VoxelChanges.h"
+#include "voxelcore/Models/MedialModel.h"
+#include "voxelcore/Models/PlainSurface.h"
+#include "voxelcore/Models/ReadMesh.h"
+#include "voxelcore/Models/SkeletonModel.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -17,13 +17,15 @@ import collections
 import itertools
 import json
 import os
+import pathlib
 import re
 import subprocess
 import sys
 
 SOURCE = os.path.realpath(f"{os.path.dirname(os.path.abspath(__file__))}/../..")
-MODULES = ["Lattice", "Shape", "Complex", "Delaunay", "Blocks", "VoxelCore", "Refinement", "Skeleton", "Thickness",
-           "Voxelization", "Phantom", "Verification", "Certified", "Formats", "ItkReader"]
+MODULES = ["Base", "Lattice", "Complex", "Shape", "Delaunay", "VoxelCore", "Refinement", "Skeleton", "Verification",
+           "Certified", "Labels", "Masks", "Formats", "ItkReader", "Blocks", "Meshes", "Phantom", "Thickness", "Sheets",
+           "Roots"]
 
 
 def decisions(branches):
@@ -102,7 +104,8 @@ def main():
                     "-DCMAKE_BUILD_TYPE=Coverage", "-DVOXELCORE_MODULES=" + ";".join(MODULES + ["Imaging"]),
                     "-DCMAKE_CXX_FLAGS=-O1 -g1 --coverage -fprofile-update=atomic -DVOXELCORE_SANITIZED"], check=True,
                    stdout=subprocess.DEVNULL)
-    targets = [f"Testing/{module}/all" for module in options.modules]
+    targets = [f"Testing/{path.parent.parent.name}/{path.parent.name}/all" for module in options.modules
+               for path in pathlib.Path(SOURCE, "Testing").glob(f"*/{module}/CMakeLists.txt")]
     subprocess.run(["ninja", "-C", build, f"-j{options.jobs}"] + targets, check=True, stdout=subprocess.DEVNULL)
     count_reader_apart(build)
 
@@ -125,7 +128,7 @@ def main():
     sources = {}
     for (path, number), (count, branches) in sorted(counted_lines(counters()).items()):
         name = os.path.relpath(path, SOURCE)
-        module = name.split("/")[1]
+        module = name.split("/")[2]
         sources[path] = sources.get(path) or read_lines(path)
         line = sources[path][number - 1]
         # At a lone brace stands what the compiler makes of itself: destructors, say.

@@ -5,7 +5,7 @@ usage: faults.py BUILD_DIR [--count 200] [--seed S] [--jobs 2] [--modules A,B..]
        faults.py BUILD_DIR --again FILE.json [--jobs 2] [--results FILE.json]
 
 A fault is a sign, a comparison, a constant, an index or a bound changed, or a check dropped, on one line of
-Modules/{Lattice,Shape,Complex,Delaunay,VoxelCore,Skeleton,Certified}. All faults of a run are built into one copy of
+the rooms of SEEDED. All faults of a run are built into one copy of
 the tree in BUILD_DIR, each behind a switch (switch.h); lines that do not compile so are left out. A first run of the
 default tests of the modules and of the program's recorded runs (Testing/Results) tells which come past which fault;
 then, for each fault, these run with it, the quick ones first, until one fails, crashes or takes ten times the
@@ -29,9 +29,10 @@ import tempfile
 import threading
 
 SOURCE = os.path.realpath(f"{os.path.dirname(os.path.abspath(__file__))}/../..")
-SEEDED = ["Lattice", "Shape", "Complex", "Delaunay", "VoxelCore", "Skeleton", "Certified"]
-TESTED = ["Lattice", "Shape", "Complex", "Delaunay", "Blocks", "VoxelCore", "Refinement", "Skeleton", "Thickness",
-          "Phantom", "Verification", "Certified", "Jobs"]
+SEEDED = ["Base", "Lattice", "Shape", "Complex", "Delaunay", "VoxelCore", "Skeleton", "Certified", "Labels", "Masks",
+          "Roots"]
+TESTED = SEEDED + ["Blocks", "Refinement", "Thickness", "Sheets", "Phantom", "Verification", "Jobs", "RootsJob",
+                   "ThicknessJob", "SheetsJob"]
 LEFT_OUT = re.compile("heavy|sanitizer|browser|package|cluster|fuzz")
 
 # What becomes what, by kind; each is tried at each place of an expression where it fits.
@@ -85,7 +86,8 @@ def candidates(modules):
     """All faults there are, in the order of the sources."""
     found = []
     for module in modules:
-        for folder, _, names in sorted(os.walk(f"{SOURCE}/Modules/{module}")):
+        for folder, _, names in sorted(place for group in os.listdir(f"{SOURCE}/Modules")
+                                       for place in os.walk(f"{SOURCE}/Modules/{group}/{module}")):
             for name in sorted(names):
                 if not name.endswith((".cxx", ".h")):
                     continue
@@ -309,7 +311,7 @@ def main():
 
     print("| module | faults | noticed | explained |\n| --- | --- | --- | --- |")
     for module in options.modules.split(",") + ["all"]:
-        of = [record for record in records if module == "all" or record["path"].split("/")[1] == module]
+        of = [record for record in records if module == "all" or record["path"].split("/")[2] == module]
         noticed = sum(record["noticed_by"] is not None for record in of)
         print(f"| {module} | {len(of)} | {noticed} | "
               f"{sum(record['noticed_by'] is None and record['explained'] is not None for record in of)} |")

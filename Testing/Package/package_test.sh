@@ -47,7 +47,7 @@ case "$how" in
     fi
     # Public headers and nothing else: what lies in an include folder.
     diff <(cd "$moved/second/include" && find . -type f | sort) \
-      <(cd "$source/Modules" && for d in */include; do (cd "$d" && find . -type f); done | sort) ||
+      <(cd "$source/Modules" && for d in */*/include; do (cd "$d" && find . -type f); done | sort) ||
       fail "the installed headers are not the public ones"
     ;;
   find_package)
@@ -65,7 +65,7 @@ case "$how" in
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
     # The guide's lines, as they stand there.
     {
-      printf '#include "voxelcore/%s.h"\n' Certified LabelVolume MedialModel
+      printf '#include "voxelcore/%s.h"\n' Certified/Certified Imaging/LabelVolume Models/MedialModel
       echo 'int main() {'
       grep -A7 '^    const voxelcore::LabelMap scan = ' "$source/Applications/manual/guide/cpp.md"
       echo 'return core.core.cells.FaceCount() > 0 ? 0 : 1; }'

@@ -1,7 +1,7 @@
 #include "BenchmarkTasks.h"
 
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/Phantom.h"
+#include "voxelcore/Phantom/Phantom.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
 
 #include <chrono>
 #include <fstream>

@@ -11,8 +11,8 @@
 #include "CostSamples.h"
 #include "FurtherFit.h"
 #include "NonNegativeFit.h"
-#include "voxelcore/CostModel.h"
-#include "voxelcore/OutputNames.h"
+#include "voxelcore/Jobs/CostModel.h"
+#include "voxelcore/Jobs/OutputNames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "CostPhantoms.h"
 
 #include "ChildProcess.h"
-#include "voxelcore/LabelVolume.h"
+#include "voxelcore/Imaging/LabelVolume.h"
 
 namespace voxelcore::performance
 {

@@ -2,7 +2,7 @@
 // The phantoms whose cost is measured, and what the fits print.
 
 #include "CostSamples.h"
-#include "voxelcore/BoundaryCounts.h"
+#include "voxelcore/Shape/BoundaryCounts.h"
 
 #include <array>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #include "ErosionPruning.h"
 
-#include "voxelcore/ErosionThickness.h"
-#include "voxelcore/SimplePairCollapse.h"
+#include "voxelcore/Complex/SimplePairCollapse.h"
+#include "voxelcore/Skeleton/ErosionThickness.h"
 
 namespace voxelcore::evaluation
 {

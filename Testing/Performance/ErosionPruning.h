@@ -1,8 +1,8 @@
 #pragma once
 // Pruning by erosion thickness, to compare with.
 
-#include "voxelcore/MedialComplex.h"
-#include "voxelcore/SpacingWeights.h"
+#include "voxelcore/Lattice/SpacingWeights.h"
+#include "voxelcore/VoxelCore/MedialComplex.h"
 
 #include <vector>
 

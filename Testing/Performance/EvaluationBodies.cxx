@@ -1,7 +1,7 @@
 #include "EvaluationBodies.h"
 
-#include "voxelcore/Phantom.h"
-#include "voxelcore/ShapeOperations.h"
+#include "voxelcore/Phantom/Phantom.h"
+#include "voxelcore/Shape/ShapeOperations.h"
 
 #include <algorithm>
 #include <cmath>

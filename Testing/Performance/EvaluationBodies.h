@@ -1,7 +1,7 @@
 #pragma once
 // Bodies whose medial axes are known, sampled at any rotation, resolution and spacing, clean or rough.
 
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/Shape/VoxelShape.h"
 
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 #include "CostPhantoms.h"
 #include "CostSamples.h"
 #include "NonNegativeFit.h"
-#include "voxelcore/CostModel.h"
-#include "voxelcore/OutputNames.h"
+#include "voxelcore/Jobs/CostModel.h"
+#include "voxelcore/Jobs/OutputNames.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "RefinementBodies.h"
 
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/Shape/VoxelShape.h"
 
 #include <array>
 #include <cstdint>

@@ -3,8 +3,8 @@
 
 #include "EvaluationBodies.h"
 
-#include "voxelcore/BallTree.h"
-#include "voxelcore/MedialComplex.h"
+#include "voxelcore/VoxelCore/BallTree.h"
+#include "voxelcore/VoxelCore/MedialComplex.h"
 
 #include <array>
 #include <memory>

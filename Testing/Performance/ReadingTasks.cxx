@@ -2,9 +2,9 @@
 
 #include "ProcessFigures.h"
 
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/LabelVolume.h"
-#include "voxelcore/Phantom.h"
+#include "voxelcore/Imaging/LabelVolume.h"
+#include "voxelcore/Phantom/Phantom.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
 
 #include <png.h>
 #include <tiffio.h>

@@ -1,7 +1,7 @@
 #include "RefinedCandidates.h"
 
-#include "voxelcore/SurfaceEstimate.h"
-#include "voxelcore/Vectors.h"
+#include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Refinement/SurfaceEstimate.h"
 
 #include <algorithm>
 #include <cmath>

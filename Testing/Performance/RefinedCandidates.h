@@ -1,7 +1,7 @@
 #pragma once
 // Pruned cores refined from the labels.
 
-#include "voxelcore/Refinement.h"
+#include "voxelcore/Refinement/Refinement.h"
 
 #include <vector>
 

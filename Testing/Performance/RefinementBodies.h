@@ -1,7 +1,7 @@
 #pragma once
 // Solids whose surfaces and medial axes are known exactly, at any resolution.
 
-#include "voxelcore/ImageGeometry.h"
+#include "voxelcore/Lattice/ImageGeometry.h"
 
 #include <array>
 #include <cstdint>

@@ -5,12 +5,12 @@
 
 #include "RefinementScores.h"
 
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/ComplexTopology.h"
-#include "voxelcore/LambdaPruning.h"
-#include "voxelcore/Refinement.h"
-#include "voxelcore/ShapeTopology.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Complex/ComplexTopology.h"
+#include "voxelcore/Refinement/Refinement.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
+#include "voxelcore/Shape/ShapeTopology.h"
+#include "voxelcore/VoxelCore/LambdaPruning.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <chrono>
 #include <cmath>

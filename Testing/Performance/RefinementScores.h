@@ -4,8 +4,8 @@
 #include "KnownGrid.h"
 #include "RefinementBodies.h"
 
-#include "voxelcore/MedialComplex.h"
-#include "voxelcore/TriangleTree.h"
+#include "voxelcore/Refinement/TriangleTree.h"
+#include "voxelcore/VoxelCore/MedialComplex.h"
 
 #include <vector>
 

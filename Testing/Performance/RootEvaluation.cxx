@@ -7,10 +7,10 @@
 #include "RootScores.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
-#include "voxelcore/BranchTable.h"
-#include "voxelcore/PhantomJob.h"
-#include "voxelcore/RootsJob.h"
-#include "voxelcore/ShapeClosing.h"
+#include "voxelcore/Masks/ShapeClosing.h"
+#include "voxelcore/Phantom/PhantomJob.h"
+#include "voxelcore/Roots/RootsJob.h"
+#include "voxelcore/Skeleton/BranchTable.h"
 
 #include <cstdio>
 #include <cstdlib>

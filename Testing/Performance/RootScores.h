@@ -1,9 +1,9 @@
 #pragma once
 // The axes found in a root phantom against those it was grown along.
 
-#include "../Skeleton/RootScore.h"
+#include "../Uses/Roots/RootScore.h"
 
-#include "voxelcore/RootTraits.h"
+#include "voxelcore/Roots/RootTraits.h"
 
 #include <map>
 

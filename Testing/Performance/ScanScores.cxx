@@ -6,13 +6,13 @@
 // label, lost parts (% of the boundary vertices farther than two voxel diagonals from all balls) and the largest gap
 // (voxel diagonals). A voxel is the side of the cube with the same diagonal. README.md has the table.
 
-#include "voxelcore/BallTree.h"
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/CoreReport.h"
-#include "voxelcore/MedialModel.h"
-#include "voxelcore/PolygonArea.h"
-#include "voxelcore/ReadInput.h"
-#include "voxelcore/Vectors.h"
+#include "voxelcore/Jobs/ReadInput.h"
+#include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Models/MedialModel.h"
+#include "voxelcore/Report/CoreReport.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
+#include "voxelcore/VoxelCore/BallTree.h"
+#include "voxelcore/VoxelCore/PolygonArea.h"
 
 #include <algorithm>
 #include <cmath>

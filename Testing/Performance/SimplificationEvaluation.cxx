@@ -4,8 +4,8 @@
 
 #include "CandidateChoice.h"
 
-#include "../Shape/LeastChange.h"
-#include "voxelcore/ShapeTopology.h"
+#include "../Scans/Masks/LeastChange.h"
+#include "voxelcore/Shape/ShapeTopology.h"
 
 #include <array>
 #include <cmath>

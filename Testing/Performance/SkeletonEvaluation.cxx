@@ -1,11 +1,11 @@
 // Curve skeletons of shapes whose answer is known, scored.
 
-#include "../Skeleton/HandShape.h"
-#include "../Skeleton/RootScore.h"
+#include "../Core/Skeleton/HandShape.h"
+#include "../Uses/Roots/RootScore.h"
 #include "VoxelCoreTesting/SurfaceNoise.h"
 
-#include "voxelcore/BranchTable.h"
-#include "voxelcore/ShapeSmoothing.h"
+#include "voxelcore/Masks/ShapeSmoothing.h"
+#include "voxelcore/Skeleton/BranchTable.h"
 
 #include <cstdio>
 #include <cstdlib>

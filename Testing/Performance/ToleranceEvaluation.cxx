@@ -16,13 +16,13 @@
 #include "PruningScores.h"
 #include "RefinedCandidates.h"
 
-#include "voxelcore/BallCoverage.h"
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/TolerancePruning.h"
-#include "voxelcore/ComplexTopology.h"
-#include "voxelcore/LambdaPruning.h"
-#include "voxelcore/ShapeSmoothing.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Complex/ComplexTopology.h"
+#include "voxelcore/Masks/ShapeSmoothing.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
+#include "voxelcore/Verification/BallCoverage.h"
+#include "voxelcore/VoxelCore/LambdaPruning.h"
+#include "voxelcore/VoxelCore/TolerancePruning.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,11 +8,11 @@
 
 #include "ProcessFigures.h"
 
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/TolerancePruning.h"
-#include "voxelcore/LambdaPruning.h"
-#include "voxelcore/Phantom.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Phantom/Phantom.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
+#include "voxelcore/VoxelCore/LambdaPruning.h"
+#include "voxelcore/VoxelCore/TolerancePruning.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 // Voxels of bodies that are told by a function.
 
-#include "voxelcore/ImageGeometry.h"
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/Lattice/ImageGeometry.h"
+#include "voxelcore/Shape/VoxelShape.h"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 // A voxel shape's boundary vertices and topology numbers, voxel by voxel as their definitions say: slow and plain.
 
-#include "voxelcore/TopologyNumbers.h"
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/Lattice/TopologyNumbers.h"
+#include "voxelcore/Shape/VoxelShape.h"
 
 #include <cstdlib>
 #include <vector>

@@ -3,10 +3,10 @@
 
 #include "VoxelCoreTesting/Shapes.h"
 
-#include "voxelcore/BoundaryVertices.h"
-#include "voxelcore/TolerancePruning.h"
-#include "voxelcore/TopologyNumbers.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Lattice/TopologyNumbers.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
+#include "voxelcore/VoxelCore/TolerancePruning.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <gtest/gtest.h>
 

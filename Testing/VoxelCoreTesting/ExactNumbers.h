@@ -1,9 +1,9 @@
 #pragma once
 // The reference for exact arithmetic: integers and fractions of any length.
 
-#include "voxelcore/LatticePoint.h"
-#include "voxelcore/Rational.h"
-#include "voxelcore/SpacingWeights.h"
+#include "voxelcore/Lattice/LatticePoint.h"
+#include "voxelcore/Lattice/Rational.h"
+#include "voxelcore/Lattice/SpacingWeights.h"
 
 #include <boost/multiprecision/cpp_int.hpp>
 

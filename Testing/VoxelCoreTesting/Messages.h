@@ -1,7 +1,7 @@
 #pragma once
 // What is said where something is refused.
 
-#include "voxelcore/Error.h"
+#include "voxelcore/Base/Error.h"
 
 #include <gtest/gtest.h>
 

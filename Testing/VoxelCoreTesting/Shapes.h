@@ -3,8 +3,8 @@
 
 #include "VoxelCoreTesting/Random.h"
 
-#include "voxelcore/SpacingWeights.h"
-#include "voxelcore/VoxelShape.h"
+#include "voxelcore/Lattice/SpacingWeights.h"
+#include "voxelcore/Shape/VoxelShape.h"
 
 #include <iostream>
 #include <sstream>

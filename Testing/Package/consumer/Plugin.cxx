@@ -1,6 +1,6 @@
 // A plugin of somebody else's program, with all of VoxelCore in it and one function that can be called.
 
-#include "voxelcore/CoreJob.h"
+#include "voxelcore/Jobs/CoreJob.h"
 
 extern "C" __attribute__((visibility("default"))) int
 PluginMakesCore(const char * scan, const char * output)

@@ -1,13 +1,13 @@
 // A program that knows no file format: the pruned core of a torus has its one loop.
 // usage: UsesCore
 
-#include "voxelcore/ComplexTopology.h"
-#include "voxelcore/CurveSkeleton.h"
-#include "voxelcore/LambdaPruning.h"
-#include "voxelcore/Phantom.h"
-#include "voxelcore/ShapeTopology.h"
-#include "voxelcore/Verification.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Complex/ComplexTopology.h"
+#include "voxelcore/Phantom/Phantom.h"
+#include "voxelcore/Shape/ShapeTopology.h"
+#include "voxelcore/Skeleton/CurveSkeleton.h"
+#include "voxelcore/Verification/Verification.h"
+#include "voxelcore/VoxelCore/LambdaPruning.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <cstdio>
 

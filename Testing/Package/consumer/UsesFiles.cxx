@@ -1,9 +1,9 @@
 // From a scan to a file. usage: UsesFiles SCAN OUT.vtp
 
-#include "voxelcore/LabelVolume.h"
-#include "voxelcore/LambdaPruning.h"
-#include "voxelcore/MedialModel.h"
-#include "voxelcore/VoxelCore.h"
+#include "voxelcore/Imaging/LabelVolume.h"
+#include "voxelcore/Models/MedialModel.h"
+#include "voxelcore/VoxelCore/LambdaPruning.h"
+#include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <cstdio>
 #include <exception>

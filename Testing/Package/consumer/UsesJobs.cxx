@@ -1,7 +1,7 @@
 // The whole job as the program does it. usage: UsesJobs SCAN OUT.vtp
 
-#include "voxelcore/CoreJob.h"
-#include "voxelcore/ReportTable.h"
+#include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Report/ReportTable.h"
 
 #include <cstdio>
 #include <exception>

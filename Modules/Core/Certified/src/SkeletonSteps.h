@@ -1,0 +1,61 @@
+#pragma once
+// The two steps from a core to its skeleton, between which the curves may be refined.
+
+#include "voxelcore/Certified/CertifiedSkeleton.h"
+#include "voxelcore/Refinement/SurfaceDistance.h"
+#include "voxelcore/Skeleton/CurveSkeleton.h"
+
+#include <memory>
+
+namespace voxelcore
+{
+
+/** What a core has burned to, in LPS mm. */
+struct BurnedCurves
+{
+  CurveSkeleton                          curves;
+  TopologyNumbers                        topology;
+  std::shared_ptr<const SurfaceDistance> toSurface; ///< to which they have been refined; none: they have not
+};
+
+/** Of a shape that was made to go on beyond the border of its scan, what it was. */
+struct BeyondBorder
+{
+  VoxelBox                   scan;
+  VoxelBox                   box; ///< of the shape within
+  TopologyNumbers            topology;
+  BorderEnds                 ends = BorderEnds::Open;
+  std::vector<BorderSection> sections;
+};
+
+/** What lambda or tolerance of the request leave of the whole core. \throws UsageError for a tolerance where the core
+ *  has none */
+LiveElements
+PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
+
+/** Of a part of the core, in the fire of all of it, unless that is null. Of `curves` what is spent, and what is done
+ *  beside, is the caller's; lengths come from the shape and the request.
+ *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
+BurnedCurves
+BurnToCurves(const MedialComplex &    core,
+             const LiveElements *     part,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress,
+             CurveOptions             curves = {});
+
+/** Branches, and how wide the body in `voxels` is around them; no table of them yet. Where the body `goesOn` beyond a
+ *  border, they are cut in it.
+ *  \throws CertificateError when they do not have the topology of the curves. */
+CertifiedSkeleton
+MeasureCurves(const BurnedCurves &    burned,
+              const VoxelShape &      voxels,
+              const CertifiedShape &  shape,
+              const SkeletonRequest & request,
+              const BeyondBorder *    goesOn = nullptr);
+
+/** \throws CertificateError unless every point of a skeleton lies in its shape. */
+void
+RequireEnclosed(const SkeletonGraph & graph, const VoxelShape & voxels, const CertifiedShape & shape);
+
+} // namespace voxelcore

@@ -1,0 +1,98 @@
+#include "GraphLines.h"
+#include "voxelcore/Base/UnionFind.h"
+#include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Skeleton/LoopClosers.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace voxelcore
+{
+
+std::vector<LoopCut>
+CutLoops(SkeletonGraph & graph)
+{
+  const std::vector<std::uint8_t> cut = FindLoopClosers(graph, NodeHubs(graph), LeastRadii(graph));
+  std::vector<LoopCut>            cuts;
+  GraphLines                      lines;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    std::vector<ElementIndex> line(graph.Branch(branch).begin(), graph.Branch(branch).end());
+    if (!cut[branch])
+    {
+      lines.push_back(std::move(line));
+      continue;
+    }
+    if (graph.nodeKinds[graph.branchNodes[branch][0]] == NodeKind::Loop)
+    {
+      // Nothing hangs on a closed curve: it may begin at its thinnest point.
+      const auto thinnest = std::min_element(line.begin(), line.end() - 1, [&](ElementIndex a, ElementIndex b) {
+        return graph.radius[a] < graph.radius[b];
+      });
+      std::rotate(line.begin(), thinnest, line.end() - 1);
+      line.back() = CopyPoint(graph, line.front());
+      cuts.push_back({ graph.positions[line.front()], graph.radius[line.front()] });
+      lines.push_back(std::move(line));
+      continue;
+    }
+    if (line.size() == 2)
+    {
+      // No point between its ends: one in their middle.
+      const ElementIndex middle = CopyPoint(graph, line[0]);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        graph.positions[middle][axis] = 0.5 * (graph.positions[line[0]][axis] + graph.positions[line[1]][axis]);
+        if (!graph.medial.empty())
+        {
+          graph.medial[middle][axis] = 0.5 * (graph.medial[line[0]][axis] + graph.medial[line[1]][axis]);
+        }
+      }
+      graph.radius[middle] = 0.5 * (graph.radius[line[0]] + graph.radius[line[1]]);
+      if (!graph.sectionRadius.empty())
+      {
+        graph.sectionRadius[middle] = 0.5 * (graph.sectionRadius[line[0]] + graph.sectionRadius[line[1]]);
+      }
+      if (!graph.labels.empty())
+      {
+        graph.labels[middle] = graph.BranchLabel(branch);
+        graph.contact[middle] = 0;
+      }
+      line.insert(line.begin() + 1, middle);
+    }
+    const auto at = std::min_element(line.begin() + 1, line.end() - 1, [&](ElementIndex a, ElementIndex b) {
+      return graph.radius[a] < graph.radius[b];
+    });
+    std::vector<ElementIndex> rest(at, line.end());
+    line.erase(at + 1, line.end());
+    rest.front() = CopyPoint(graph, line.back());
+    cuts.push_back({ graph.positions[line.back()], graph.radius[line.back()] });
+    lines.push_back(std::move(line));
+    lines.push_back(std::move(rest));
+  }
+  SortBranches(graph, lines, false);
+  return cuts;
+}
+
+void
+SplitAtJunctions(SkeletonGraph & graph)
+{
+  GraphLines                lines = LinesOf(graph);
+  std::vector<std::uint8_t> used(graph.positions.size(), 0);
+  for (auto & line : lines)
+  {
+    for (ElementIndex * end : { &line.front(), &line.back() })
+    {
+      if (used[*end])
+      {
+        *end = CopyPoint(graph, *end);
+        used.push_back(1);
+      }
+      used[*end] = 1;
+    }
+  }
+  SortBranches(graph, lines, false);
+}
+
+} // namespace voxelcore

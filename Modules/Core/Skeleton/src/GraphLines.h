@@ -1,0 +1,25 @@
+#pragma once
+// A graph's branches as lists of points, to be cut and joined; SortBranches() makes branches of them again.
+
+#include "voxelcore/Skeleton/SkeletonGraph.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace voxelcore
+{
+
+using GraphLines = std::vector<std::vector<ElementIndex>>;
+
+GraphLines
+LinesOf(const SkeletonGraph & graph);
+
+/** A new point at the same place. */
+ElementIndex
+CopyPoint(SkeletonGraph & graph, ElementIndex point);
+
+/** Keeps the points with a flag, in their order. */
+void
+KeepPoints(SkeletonGraph & graph, GraphLines & lines, const std::vector<std::uint8_t> & keep);
+
+} // namespace voxelcore

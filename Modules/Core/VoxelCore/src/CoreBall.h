@@ -1,0 +1,91 @@
+#pragma once
+// What pruning by tolerance asks of the vertices of a core again and again.
+
+#include "voxelcore/Complex/CellComplex.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace voxelcore
+{
+
+using BallCentre = std::array<double, 3>; ///< mm
+
+inline constexpr ElementIndex kNobody = 0xFFFFFFFFU;
+
+/** The ball of a vertex, in one line of the cache with what becomes of it. Lengths in mm. The fire (RimFire) changes
+ *  its own two members only, and what looks after loose ends (LooseEnds) the others, at the same time. */
+struct alignas(64) CoreBall
+{
+  BallCentre   centre;
+  double       radius;
+  double       burnt = 0;           ///< when fire reached it
+  double       bound = 0;           ///< none of the boundary vertices it keeps is farther from it
+  ElementIndex witness = kNobody;   ///< the ball that fire came with
+  ElementIndex uphill = kNobody;    ///< the neighbour towards which the radius grows most steeply; itself at a top;
+                                    ///< kNobody: not asked
+  std::uint32_t lastKept = kNobody; ///< of the ring of boundary vertices it keeps
+  std::uint32_t seen = 0;           ///< number of the last look around that came by
+};
+static_assert(sizeof(CoreBall) == 64);
+
+inline double
+SquaredDistance(const BallCentre & p, const BallCentre & q)
+{
+  const double dx = p[0] - q[0];
+  const double dy = p[1] - q[1];
+  const double dz = p[2] - q[2];
+  return dx * dx + dy * dy + dz * dz;
+}
+
+/** How far a place lies from the ball of y. */
+inline double
+Gap(const BallCentre & place, const CoreBall & y)
+{
+  return std::sqrt(SquaredDistance(place, y.centre)) - y.radius;
+}
+
+/** By how much the ball of x sticks out of the ball of y. */
+inline double
+Protrusion(const CoreBall & x, const CoreBall & y)
+{
+  return std::sqrt(SquaredDistance(x.centre, y.centre)) + (x.radius - y.radius);
+}
+
+/** Two lengths that are computed side by side, each as it would be alone. */
+using TwoLengths = double __attribute__((vector_size(16)));
+
+/** What is asked of two balls at once. */
+struct TwoBalls
+{
+  TwoBalls(const CoreBall & a, const CoreBall & b)
+    : x{ a.centre[0], b.centre[0] }
+    , y{ a.centre[1], b.centre[1] }
+    , z{ a.centre[2], b.centre[2] }
+    , radius{ a.radius, b.radius }
+  {}
+  TwoLengths x;
+  TwoLengths y;
+  TwoLengths z;
+  TwoLengths radius;
+};
+
+inline TwoLengths
+Larger(const TwoLengths & a, const TwoLengths & b)
+{
+  return a < b ? b : a;
+}
+
+/** Protrusion() of each out of the ball of y. */
+inline TwoLengths
+Protrusions(const TwoBalls & balls, const CoreBall & y)
+{
+  const TwoLengths dx = balls.x - y.centre[0];
+  const TwoLengths dy = balls.y - y.centre[1];
+  const TwoLengths dz = balls.z - y.centre[2];
+  const TwoLengths squared = dx * dx + dy * dy + dz * dz;
+  return TwoLengths{ std::sqrt(squared[0]), std::sqrt(squared[1]) } + (balls.radius - y.radius);
+}
+
+} // namespace voxelcore

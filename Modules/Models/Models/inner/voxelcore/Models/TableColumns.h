@@ -1,0 +1,69 @@
+#pragma once
+// Tables whose columns are described in a list: each has `name`, `unit` and `meaning`.
+
+#include "voxelcore/Models/TextFile.h"
+
+#include "voxelcore/Base/SpatialUnit.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace voxelcore
+{
+
+constexpr int tableDigits = 7; // significant, of numbers that are not whole
+
+/** A column whose values are written elsewhere. */
+struct Column
+{
+  const char * name;
+  const char * unit;
+  const char * meaning;
+};
+
+// What many tables begin with.
+constexpr Column kLabelColumn{ "label", "", "value of the label" };
+constexpr Column kNameColumn{ "name", "", "name of the label" };
+constexpr Column kPartColumn{ "part", "", "component of a label that was split, from 1; 0: the whole label" };
+constexpr Column kBranchIdColumn{ "branch_id", "", "number of the branch, the cell array BranchId" };
+
+template <typename Columns>
+void
+WriteHead(TextFile & file, const Columns & columns)
+{
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    file << (i > 0 ? "," : "") << columns[i].name;
+  }
+  file << "\n";
+}
+
+/** What the columns mean, as a JSON object. */
+template <typename Columns>
+std::string
+ColumnsJson(const Columns & columns, SpatialUnit unit)
+{
+  std::string json = "{";
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
+            columns[i].meaning + "\"" +
+            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
+  }
+  return json + "\n  }";
+}
+
+/** What the columns of several tables mean, as JSON: names of tables, each with its ColumnsJson(). */
+inline std::string
+TablesJson(const std::vector<std::pair<const char *, std::string>> & tables)
+{
+  std::string json = "{";
+  for (const auto & [name, columns] : tables)
+  {
+    json += (json.size() > 1 ? ",\n  \"" : "\n  \"") + std::string(name) + "\": " + columns;
+  }
+  return json + "\n}\n";
+}
+
+} // namespace voxelcore

@@ -1,0 +1,298 @@
+#include "voxelcore/Models/AppendedVtp.h"
+#include "ModelSource.h"
+#include "VtpFile.h"
+
+#include "voxelcore/Models/SkeletonModel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+std::vector<std::vector<ElementIndex>>
+CellsOf(const VtpCells & cells, std::size_t pointCount)
+{
+  std::vector<std::vector<ElementIndex>> lists;
+  std::int64_t                           from = 0;
+  for (const std::int64_t end : cells.offsets)
+  {
+    RequireFit(end > from && static_cast<std::uint64_t>(end) <= cells.points.size(), "its cells are damaged");
+    lists.emplace_back();
+    for (; from < end; ++from)
+    {
+      const std::int64_t point = cells.points[static_cast<std::size_t>(from)];
+      RequireFit(point >= 0 && static_cast<std::uint64_t>(point) < pointCount, "its cells are damaged");
+      lists.back().push_back(static_cast<ElementIndex>(point));
+    }
+  }
+  RequireFit(static_cast<std::uint64_t>(from) == cells.points.size(), "its cells are damaged");
+  return lists;
+}
+
+SkeletonModel
+ReadSkeleton(ModelSource & file)
+{
+  const auto unit = UnitNamed(file.ReadText("FieldData", "Units"));
+  RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && unit, "it is not in LPS mm or voxels");
+  RequireFit(file.Has("PointData", "ErosionThickness") && file.Has("CellData", "BranchId"), "it holds no skeleton");
+  const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
+  const std::vector<double> radius = file.Read<double>("PointData", "Radius");
+  RequireFit(file.Has("PointData", "SectionRadius"), "an older version wrote it; make it anew");
+  const std::vector<double> sections = file.Read<double>("PointData", "SectionRadius");
+  const std::vector<double> thickness = file.Read<double>("PointData", "ErosionThickness");
+  const auto                labels = file.Read<std::int64_t>("CellData", "Label");
+  const auto                components = file.Read<std::int64_t>("CellData", "Component");
+  const auto                closed = file.Read<std::int64_t>("CellData", "Closed");
+  const std::size_t         count = positions.size() / 3;
+  RequireFit(radius.size() == count && sections.size() == count && thickness.size() == count && count < 0xFFFFFFFFU,
+             "its arrays differ in length");
+  const auto areLengths = [](const std::vector<double> & values, double most) {
+    return std::all_of(values.begin(), values.end(), [&](double value) { return value >= 0 && value <= most; });
+  };
+  constexpr double largest = std::numeric_limits<double>::max();
+  RequireFit(std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); }),
+             "a coordinate is no finite number");
+  RequireFit(areLengths(radius, largest) && areLengths(sections, largest),
+             "a Radius or SectionRadius is below 0 or no finite number");
+  // Of closed surfaces it is infinite.
+  RequireFit(areLengths(thickness, std::numeric_limits<double>::infinity()),
+             "an ErosionThickness is below 0 or no number");
+  const auto read = [&](const char * section) {
+    return CellsOf({ file.ReadIndices(section, "offsets"), file.ReadIndices(section, "connectivity") }, count);
+  };
+  const auto verts = read("Verts");
+  const auto lines = read("Lines");
+  const auto polys = read("Polys");
+  RequireFit(labels.size() == verts.size() + lines.size() + polys.size() && components.size() == labels.size() &&
+               closed.size() == labels.size(),
+             "its arrays differ in length");
+
+  // Of a network all is one part, whatever label.
+  const bool                isNetwork = file.Has("PointData", "Label") && file.Has("PointData", "Contact");
+  std::vector<std::int64_t> pointLabels;
+  std::vector<std::int64_t> contacts;
+  if (isNetwork)
+  {
+    pointLabels = file.Read<std::int64_t>("PointData", "Label");
+    contacts = file.Read<std::int64_t>("PointData", "Contact");
+    RequireFit(pointLabels.size() == count && contacts.size() == count, "its arrays differ in length");
+  }
+  const auto keyOf = [&](std::size_t cell) {
+    return std::pair(isNetwork ? std::int64_t{ 1 } : labels[cell], components[cell]);
+  };
+
+  // A point belongs to the part of its cells.
+  SkeletonModel model;
+  model.unit = *unit;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::size_t> partOf;
+  for (std::size_t cell = 0; cell < labels.size(); ++cell)
+  {
+    partOf.try_emplace(keyOf(cell), 0);
+  }
+  for (auto & [key, index] : partOf)
+  {
+    index = model.parts.size();
+    model.parts.emplace_back();
+    model.parts.back().label = key.first;
+    model.parts.back().component = key.second;
+  }
+  std::vector<ElementIndex> number(count, 0xFFFFFFFFU);
+  std::vector<std::size_t>  owner(count, 0);
+  const auto                forCells = [&](auto && visit) {
+    std::size_t cell = 0;
+    for (const auto * list : { &verts, &lines, &polys })
+    {
+      for (const auto & points : *list)
+      {
+        visit(list, points, cell, partOf.at(keyOf(cell)));
+        ++cell;
+      }
+    }
+  };
+  std::vector<std::uint8_t> used(count, 0);
+  forCells([&](auto, const auto & points, std::size_t, std::size_t part) {
+    for (const ElementIndex point : points)
+    {
+      RequireFit(!used[point] || owner[point] == part, "a point belongs to two labels");
+      used[point] = 1;
+      owner[point] = part;
+    }
+  });
+  for (std::size_t point = 0; point < count; ++point)
+  {
+    RequireFit(used[point] != 0, "a point is on no cell");
+    SkeletonGraph & graph = model.parts[owner[point]].graph;
+    number[point] = static_cast<ElementIndex>(graph.positions.size());
+    graph.positions.push_back({ positions[3 * point], positions[3 * point + 1], positions[3 * point + 2] });
+    graph.radius.push_back(radius[point]);
+    graph.sectionRadius.push_back(sections[point]);
+    graph.erosionThickness.push_back(thickness[point]);
+    if (isNetwork)
+    {
+      graph.labels.push_back(pointLabels[point]);
+      graph.contact.push_back(contacts[point] != 0 ? 1 : 0);
+    }
+  }
+  std::vector<std::vector<std::vector<ElementIndex>>> branches(model.parts.size());
+  forCells([&](const auto * list, const auto & points, std::size_t cell, std::size_t part) {
+    std::vector<ElementIndex> own;
+    std::transform(points.begin(), points.end(), std::back_inserter(own), [&](ElementIndex p) { return number[p]; });
+    SkeletonGraph & graph = model.parts[part].graph;
+    if (list == &lines)
+    {
+      RequireFit(own.size() >= 2, "a line has a single point");
+      branches[part].push_back(std::move(own));
+    }
+    else if (list == &polys)
+    {
+      graph.faceVertices.insert(graph.faceVertices.end(), own.begin(), own.end());
+      graph.faceOffsets.push_back(graph.faceVertices.size());
+      graph.closedFace.push_back(closed[cell] != 0 ? 1 : 0);
+    }
+  });
+  for (std::size_t part = 0; part < model.parts.size(); ++part)
+  {
+    SortBranches(model.parts[part].graph, branches[part], false);
+  }
+  if (file.Has("FieldData", "Provenance"))
+  {
+    model.provenance = file.ReadText("FieldData", "Provenance");
+  }
+  return model;
+}
+
+} // namespace
+
+void
+WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model)
+{
+  std::vector<double> positions;
+  std::vector<double> radius;
+  std::vector<double> sections;
+  std::vector<double> thickness;
+  VtpContent          content;
+  auto &              cells = content.cells;
+  struct CellData
+  {
+    std::vector<std::int64_t> branchId, label, component, closed, level, strahler;
+    std::vector<double>       length, tortuosity;
+  };
+  CellData   data[3];
+  const auto add = [&](int                  kind,
+                       const SkeletonPart & part,
+                       std::int64_t         firstPoint,
+                       auto &&              points,
+                       std::int64_t         closed,
+                       std::int64_t         id) {
+    const SkeletonGraph & graph = part.graph;
+    const std::int64_t    label = !part.network ? part.label
+                                  : id >= 0     ? graph.BranchLabel(static_cast<std::size_t>(id))
+                                                : graph.labels[*std::begin(points)];
+    for (const ElementIndex point : points)
+    {
+      cells[kind].points.push_back(firstPoint + point);
+    }
+    cells[kind].offsets.push_back(static_cast<std::int64_t>(cells[kind].points.size()));
+    CellData & to = data[kind];
+    to.branchId.push_back(id);
+    to.label.push_back(label);
+    to.component.push_back(part.component);
+    to.closed.push_back(closed);
+    const BranchRecord * branch = id >= 0 ? &part.table.branches[static_cast<std::size_t>(id)] : nullptr;
+    to.level.push_back(branch ? branch->level : 0);
+    to.strahler.push_back(branch ? branch->strahler : 0);
+    to.length.push_back(branch ? branch->length : 0);
+    to.tortuosity.push_back(branch ? branch->tortuosity : 0);
+  };
+  std::int64_t              firstPoint = 0;
+  std::vector<std::int64_t> pointLabels;
+  std::vector<std::int64_t> contacts;
+  std::string               names;
+  for (const SkeletonPart & part : model.parts)
+  {
+    const SkeletonGraph & graph = part.graph;
+    if (part.network)
+    {
+      pointLabels.insert(pointLabels.end(), graph.labels.begin(), graph.labels.end());
+      contacts.insert(contacts.end(), graph.contact.begin(), graph.contact.end());
+      for (const NetworkLabel & label : part.network->labels)
+      {
+        names += std::to_string(label.value) + " " + label.name + "\n";
+      }
+    }
+    for (const auto & position : graph.positions)
+    {
+      positions.insert(positions.end(), position.begin(), position.end());
+    }
+    radius.insert(radius.end(), graph.radius.begin(), graph.radius.end());
+    const auto & widths = SectionRadii(graph);
+    sections.insert(sections.end(), widths.begin(), widths.end());
+    thickness.insert(thickness.end(), graph.erosionThickness.begin(), graph.erosionThickness.end());
+    for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
+    {
+      if (graph.nodeKinds[node] == NodeKind::Isolated)
+      {
+        add(0, part, firstPoint, std::array{ graph.nodePoints[node] }, 0, -1);
+      }
+    }
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    {
+      add(1, part, firstPoint, graph.Branch(branch), 0, static_cast<std::int64_t>(branch));
+    }
+    for (std::size_t face = 0; face < graph.FaceCount(); ++face)
+    {
+      const std::span<const ElementIndex> corners{ graph.faceVertices.data() + graph.faceOffsets[face],
+                                                   graph.faceVertices.data() + graph.faceOffsets[face + 1] };
+      add(2, part, firstPoint, corners, graph.closedFace[face], -1);
+    }
+    firstPoint += static_cast<std::int64_t>(graph.positions.size());
+  }
+
+  content.texts = { { "SPACE", "LPS" }, { "Units", UnitName(model.unit) }, { "Provenance", model.provenance } };
+  content.positions = std::move(positions);
+  content.pointArrays = { { "Radius", radius },
+                          { "MaximumInscribedSphereRadius", radius },
+                          { "SectionRadius", sections },
+                          { "ErosionThickness", thickness } };
+  if (!pointLabels.empty())
+  {
+    content.texts.emplace_back("LabelNames", names);
+    content.pointArrays.emplace_back("Label", std::move(pointLabels));
+    content.pointArrays.emplace_back("Contact", std::move(contacts));
+  }
+  const auto addCells = [&](const char * name, auto member) {
+    auto all = data[0].*member;
+    for (const int kind : { 1, 2 })
+    {
+      all.insert(all.end(), (data[kind].*member).begin(), (data[kind].*member).end());
+    }
+    content.cellArrays.emplace_back(name, std::move(all));
+  };
+  addCells("BranchId", &CellData::branchId);
+  addCells("Label", &CellData::label);
+  addCells("Component", &CellData::component);
+  addCells("Closed", &CellData::closed);
+  addCells("Level", &CellData::level);
+  addCells("Strahler", &CellData::strahler);
+  addCells("Length", &CellData::length);
+  addCells("Tortuosity", &CellData::tortuosity);
+  WriteVtp(path, content);
+}
+
+SkeletonModel
+ReadSkeletonVtp(const std::filesystem::path & path)
+{
+  SkeletonModel model;
+  std::string   rounded =
+    ReadFrom(path, Precision::AsSaved, "skeleton", [&](ModelSource & source) { model = ReadSkeleton(source); });
+  model.rounded = std::move(rounded);
+  return model;
+}
+
+} // namespace voxelcore

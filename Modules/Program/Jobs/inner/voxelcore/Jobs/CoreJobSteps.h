@@ -1,0 +1,29 @@
+#pragma once
+// RunCoreJob in steps, for jobs that hold several of them.
+
+#include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Jobs/OutputTransaction.h"
+
+#include <functional>
+#include <vector>
+
+namespace voxelcore
+{
+
+/** Everything a user could have given wrong that can be seen before reading. \throws UsageError, OutputError */
+void
+CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction);
+
+/** Called once with the labels that are worked on, before their shapes are used up. */
+using ShapesSeen = std::function<void(const std::vector<EditedLabel> & labels, const ImageGeometry & geometry)>;
+
+/** RunCoreJob up to the moment at which its files get their names. CheckCoreTargets comes first. With `labelByLabel`,
+ *  into a folder, those of each label get theirs when it is done, and labels that are done are passed over. */
+CoreResult
+StageCoreJob(const CoreOptions & options,
+             OutputTransaction & transaction,
+             const JobContext &  context,
+             bool                labelByLabel = false,
+             const ShapesSeen &  seen = {});
+
+} // namespace voxelcore

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# An option is one row: a row put into the table of a copy of the sources is found wherever options are.
+# usage: one_row_test.sh SOURCE_DIR [CMAKE OPTIONS]
+set -euo pipefail
+
+sources=$1
+shift
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+fail() {
+  echo "one_row_test.sh: $1" >&2
+  exit 1
+}
+
+mkdir "$folder/source"
+cp -r "$sources"/{CMakeLists.txt,LICENSE,Modules,Applications} "$folder/source/"
+cd "$folder"
+sed -i '/^inline constexpr auto kShapeEditRows = /a\
+  { "trial-option", "--trial-option", Text, "WORD", "", false, kCore | kSkeleton, "Try what a row gives", {}, true },' \
+  source/Modules/Program/Options/src/table/InputRows.h
+grep -q trial-option source/Modules/Program/Options/src/table/InputRows.h || fail "the row was not put in"
+
+export CCACHE_BASEDIR=$folder CCACHE_NOHASHDIR=1
+cmake -S source -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF -DVOXELCORE_PYTHON=ON "$@" >cmake.log
+ninja -C build >ninja.log || { tail -30 ninja.log; fail "it does not build"; }
+program=build/bin/voxelcore
+
+"$program" core --help | grep -qE -- '--trial-option WORD .*Try what a row gives' || fail "not in the help"
+grep -q 'trial.*option' build/manual/voxelcore-core.1 || fail "not in the manual page"
+grep -q -- '--trial-option' build/manual/voxelcore.bash || fail "not in bash's completion"
+grep -q -- '--trial-option' build/manual/_voxelcore || fail "not in zsh's completion"
+for module in VoxelCoreMedialSurface VoxelCoreCurveSkeleton; do
+  "build/lib/VoxelCore/cli-modules/$module" --xml | grep -q '<longflag>--trial-option</longflag>' ||
+    fail "not in Slicer's description of $module"
+done
+
+"$program" phantom ellipsoid --size 20 -o scan.nrrd -q
+"$program" core scan.nrrd --trial-option word --tolerance 0 --report core.json -o core.vtp -q
+grep -q '"trial_option": "word"' core.json || fail "not in the report"
+grep -q '"trial_option":"word"' core.vtp || fail "not in the file"
+"$program" core scan.nrrd --tolerance 0 -o plain.vtp -q
+! grep -q trial_option plain.vtp || fail "recorded though it was not given"
+"$program" verify scan.nrrd core.vtp -q || fail "verify does not take the file"
+"$program" prune core.vtp --tolerance 1diag -o pruned.vtp -q
+grep -q '"trial_option":"word"' pruned.vtp || fail "not read back from a file"
+"$program" skeleton scan.nrrd --trial-option word -o skeleton.vtp -q
+grep -q '"trial_option":"word"' skeleton.vtp || fail "not in a skeleton's file"
+printf 'id,scan,trial-option\na,scan.nrrd,word\n' >cases.csv
+"$program" batch cases.csv -o cases -q
+grep -rq '"trial_option": "word"' cases || fail "not a column of a manifest"
+
+PYTHONPATH=build/python /usr/bin/python3 - <<'PYTHON' || fail "not in Python"
+import numpy, voxelcore
+core = voxelcore.core(numpy.ones((5, 5, 5), int), trial_option="word")
+assert core.report["parameters"]["trial_option"] == "word"
+assert "trial_option: Try what a row gives" in voxelcore.core.__doc__
+PYTHON
+echo "One row is an option everywhere."
