@@ -150,7 +150,9 @@ StateOf(const CoreReport & report)
 {
   const LabelRecord &                      label = report.labels.front();
   const PrunedRecord &                     pruned = label.pruned.front();
-  std::optional<double>                    gap = pruned.tolerance ? pruned.tolerance->boundaryGapMm : std::nullopt;
+  const auto &                             tolerance = pruned.tolerance;
+  std::optional<double>                    gap = tolerance ? tolerance->boundaryGapMm : std::nullopt;
+  std::optional<double>                    share = tolerance ? tolerance->boundaryGapShare : std::nullopt;
   std::optional<std::pair<double, double>> margin;
   if (pruned.refined && pruned.refined->radiusMargin)
   {
@@ -162,7 +164,8 @@ StateOf(const CoreReport & report)
                         report.parameters.threads,
                         label.covered,
                         gap,
-                        margin);
+                        margin,
+                        share);
 }
 
 CoreReport
@@ -177,6 +180,7 @@ ReportFrom(const py::tuple & state)
   if (label.pruned.at(0).tolerance)
   {
     label.pruned.front().tolerance->boundaryGapMm = state[5].cast<std::optional<double>>();
+    label.pruned.front().tolerance->boundaryGapShare = state[7].cast<std::optional<double>>();
   }
   if (const auto margin = state[6].cast<std::optional<std::pair<double, double>>>())
   {

@@ -204,7 +204,7 @@ Evaluate(const Body & body, bool thick, const Options & options)
       const SpacingWeights weights = ComputeSpacingWeights(spacing);
       const auto           points = BoundaryVertices(shape);
       DelaunayCells        delaunay = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
-      auto                 touching = LargestTouchingBalls(delaunay, points, weights);
+      auto                 touching = LargestTouchingBalls(shape, delaunay, points, weights);
       const EdgePoints     edgePoints = NearestToEdges(delaunay);
       MedialComplex        core = BuildVoxelCore(shape, points, std::move(delaunay), weights);
       const auto           topology = ComputeComplexTopology(core.cells);

@@ -87,7 +87,7 @@ Main(int argc, char ** argv)
         stages[stage].push_back(ProcessorSeconds() - start);
         start = ProcessorSeconds();
       };
-      TouchingBalls touching = LargestTouchingBalls(cells, points, weights);
+      TouchingBalls touching = LargestTouchingBalls(shape, cells, points, weights);
       lap(0);
       core.tolerances = ComputeTolerances(core, weights, points, std::move(touching));
       lap(1);

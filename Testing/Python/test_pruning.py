@@ -23,7 +23,8 @@ def words(given):
 def labels_of(report):
     for pruned in report["labels"][0]["pruned"]:
         pruned.pop("output", None)
-        for name in ("boundary_gap_mm", "mean_radius_margin_mm", "max_radius_margin_mm", "hairs_removed"):
+        for name in ("boundary_gap_mm", "boundary_gap_share", "mean_radius_margin_mm", "max_radius_margin_mm",
+                     "hairs_removed"):
             pruned.pop(name, None)  # not in files
     report["labels"][0]["certificate"].pop("covered", None)
     return report["labels"]

@@ -45,7 +45,7 @@ CoreWithTolerancesOf(const VoxelShape & shape,
   const SpacingWeights weights = ComputeSpacingWeights(spacing);
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, engine);
-  auto                 touching = LargestTouchingBalls(cells, points, weights);
+  auto                 touching = LargestTouchingBalls(shape, cells, points, weights);
   MedialComplex        core = BuildVoxelCore(shape, points, std::move(cells), weights);
   core.tolerances = ComputeTolerances(core, weights, points, std::move(touching), floor);
   return core;

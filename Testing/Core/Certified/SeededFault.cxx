@@ -12,8 +12,10 @@
 #include "voxelcore/VoxelCore/BallTree.h"
 #include "voxelcore/VoxelCore/LambdaPruning.h"
 #include "voxelcore/VoxelCore/TolerancePruning.h"
+#include "voxelcore/VoxelCore/ToleranceWeights.h"
 #include "voxelcore/VoxelCore/VoxelCore.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdlib>
@@ -107,6 +109,11 @@ DamageCore(MedialComplex & core)
   "_ZN9voxelcore13PruneByLambdaERKNS_13MedialComplexERKSt6vectorIdSaIdEERS3_IS3_IjSaIjEESaIS9_EERKSt8functionIFbS" \
   "t17basic_string_viewIcSt11char_traitsIcEEdEE"
 #define VOXELCORE_TOLERANCE "_ZN9voxelcore16PruneByToleranceERKNS_13MedialComplexEdRSt6vectorIjSaIjEE"
+#define VOXELCORE_TOUCHING                                                                                         \
+  "_ZN9voxelcore20LargestTouchingBallsERKNS_10VoxelShapeERKNS_13DelaunayCellsERKSt6vectorINS_12LatticePointESaIS7" \
+  "_EERKNS_14SpacingWeightsE"
+#define VOXELCORE_DIRECTION \
+  "_ZN9voxelcore16ToleranceWeightsERKNS_10VoxelShapeERKNS_14SpacingWeightsERKSt6vectorINS_12LatticePointESaIS7_EE"
 #define VOXELCORE_REFINE                                                                                  \
   "_ZN9voxelcore10RefineCoreERKNS_15RefinementInputERKSt6vectorIdSaIdEERKSt8functionIFbSt17basic_string_" \
   "viewIcSt11char_traitsIcEEdEE"
@@ -238,6 +245,50 @@ FaultyTolerance(const MedialComplex & core, double height, std::vector<ElementIn
     Damage(pruned);
   }
   return pruned;
+}
+
+// Of what makers weigh boundary vertices by, one is asked for where cores are pruned, the other where they are refined.
+TouchingBalls
+TrueTouching(const VoxelShape &,
+             const DelaunayCells &,
+             const std::vector<LatticePoint> &,
+             const SpacingWeights &) asm("__real_" VOXELCORE_TOUCHING);
+TouchingBalls
+FaultyTouching(const VoxelShape &,
+               const DelaunayCells &,
+               const std::vector<LatticePoint> &,
+               const SpacingWeights &) asm("__wrap_" VOXELCORE_TOUCHING);
+TouchingBalls
+FaultyTouching(const VoxelShape &                shape,
+               const DelaunayCells &             cells,
+               const std::vector<LatticePoint> & points,
+               const SpacingWeights &            weights)
+{
+  TouchingBalls touching = TrueTouching(shape, cells, points, weights);
+  if (IsSeeded("direction"))
+  {
+    std::ranges::fill(touching.weights, 1.0);
+  }
+  return touching;
+}
+
+std::vector<double>
+TrueDirection(const VoxelShape &,
+              const SpacingWeights &,
+              const std::vector<LatticePoint> &) asm("__real_" VOXELCORE_DIRECTION);
+std::vector<double>
+FaultyDirection(const VoxelShape &,
+                const SpacingWeights &,
+                const std::vector<LatticePoint> &) asm("__wrap_" VOXELCORE_DIRECTION);
+std::vector<double>
+FaultyDirection(const VoxelShape & shape, const SpacingWeights & weights, const std::vector<LatticePoint> & points)
+{
+  std::vector<double> direction = TrueDirection(shape, weights, points);
+  if (IsSeeded("direction"))
+  {
+    std::ranges::fill(direction, 1.0);
+  }
+  return direction;
 }
 
 std::vector<RefinedCore>

@@ -33,7 +33,7 @@ RefineByTolerance(const VoxelShape & shape, const Spacing3 & spacing, double hei
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
   const EdgePoints     edgePoints = NearestToEdges(cells);
-  auto                 touching = LargestTouchingBalls(cells, points, weights);
+  auto                 touching = LargestTouchingBalls(shape, cells, points, weights);
   MedialComplex        core = BuildVoxelCore(shape, points, std::move(cells), weights);
   core.tolerances = ComputeTolerances(core, weights, points, std::move(touching));
   const auto surface = SurfaceFromLabels(shape, spacing);

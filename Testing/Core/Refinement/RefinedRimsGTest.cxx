@@ -248,7 +248,7 @@ TEST(RefineByTolerance, LeavesRimsThatAreCurvesAndTheBoundaryCovered)
       EXPECT_LE(PartOfSharpTurns(refined, spacing), 0.05);
       EXPECT_EQ(ComputeComplexTopology(refined.core.cells), ComputeShapeTopology(shape));
       const BoundaryGap gap =
-        LargestBoundaryGap(shape, ComputeSpacingWeights(spacing), refined.core.positions, refined.core.radius);
+        LargestWeighedGap(shape, ComputeSpacingWeights(spacing), refined.core.positions, refined.core.radius);
       EXPECT_LE(gap.largest, height * (1 + 1e-9));
     }
   }

@@ -5,6 +5,7 @@
 #include "VoxelCoreTesting/Threads.h"
 
 #include "voxelcore/VoxelCore/TolerancePruning.h"
+#include "voxelcore/VoxelCore/ToleranceWeights.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +19,14 @@ namespace voxelcore
 namespace
 {
 
-/** Every boundary vertex, found by its eight voxels, against every ball. */
+/** Every boundary vertex, found by its eight voxels, against every ball; weighed by what the makers of cores say. */
 BoundaryGap
 GapByLookingAtAll(const VoxelShape &                         shape,
                   const SpacingWeights &                     weights,
                   const std::vector<std::array<double, 3>> & positions,
-                  const std::vector<double> &                radius)
+                  const std::vector<double> &                radius,
+                  bool                                       isWeighed = false,
+                  double                                     beyond = 0)
 {
   std::array<double, 3> scale{};
   for (std::size_t a = 0; a < 3; ++a)
@@ -31,9 +34,12 @@ GapByLookingAtAll(const VoxelShape &                         shape,
     scale[a] = weights.unit * static_cast<double>(weights.weight[a]);
   }
   BoundaryGap largest{ -std::numeric_limits<double>::infinity(), {} };
-  for (const LatticePoint & p : testing::BruteBoundaryVertices(shape))
+  const auto  points = testing::BruteBoundaryVertices(shape);
+  const auto  direction = isWeighed ? ToleranceWeights(shape, weights, points) : std::vector<double>();
+  for (std::size_t at = 0; at < points.size(); ++at)
   {
-    double gap = std::numeric_limits<double>::infinity();
+    const LatticePoint & p = points[at];
+    double               gap = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < radius.size(); ++i)
     {
       const double x = scale[0] * p.x - scale[0] * positions[i][0];
@@ -41,6 +47,7 @@ GapByLookingAtAll(const VoxelShape &                         shape,
       const double z = scale[2] * p.z - scale[2] * positions[i][2];
       gap = std::min(gap, std::sqrt(x * x + y * y + z * z) - radius[i]);
     }
+    gap = (direction.empty() ? 1 : direction[at]) * (gap - beyond);
     if (gap > largest.largest)
     {
       largest = { gap, { p.x, p.y, p.z } };
@@ -53,10 +60,12 @@ GapByLookingAtAll(const VoxelShape &                         shape,
 TEST(RefinedGapBound, IsTheHeightOrHalfADiagonalAndMoreOnlyForWhatWasPrunedOn)
 {
   const std::array<double, 3> spacing{ 2, 3, 6 }; // a diagonal of 7
-  EXPECT_EQ(RefinedGapBound(8, spacing), 8);
-  EXPECT_EQ(RefinedGapBound(0, spacing), 3.5);
+  EXPECT_EQ(RefinedGapBound(8, spacing).weighed, 8);
+  EXPECT_EQ(RefinedGapBound(8, spacing).beyond, 0);
+  EXPECT_EQ(RefinedGapBound(0, spacing).weighed, 3.5);
   const std::array<std::array<double, 3>, 2> moves{ { { 0, 0.5, 0 }, { 1, 2, 2 } } };
-  EXPECT_EQ(RefinedGapBound(8, spacing, moves), 8 + 6 + 3.5);
+  EXPECT_EQ(RefinedGapBound(8, spacing, moves).weighed, 8);
+  EXPECT_EQ(RefinedGapBound(8, spacing, moves).beyond, 6 + 3.5);
 }
 
 // The balls of a whole core touch every boundary vertex.
@@ -134,6 +143,14 @@ TEST(BoundaryGap, IsWhatLookingAtAllFinds)
     const BoundaryGap gap = LargestBoundaryGap(shape, weights, positions, radius);
     ASSERT_EQ(gap.largest, expected.largest);
     ASSERT_EQ(gap.place, expected.place);
+    // Also by direction, whose weights are found in another way than those of the makers.
+    const double      beyond = seed % 2 == 0 ? 0.3 : 0;
+    const BoundaryGap weighed = LargestWeighedGap(shape, weights, positions, radius, beyond);
+    const double      all = GapByLookingAtAll(shape, weights, positions, radius, true, beyond).largest;
+    ASSERT_NEAR(weighed.largest, all, 1e-12 * all);
+    const BoundaryGaps both = LargestBoundaryGaps(shape, weights, positions, radius, beyond);
+    ASSERT_EQ(both.plain.largest, gap.largest);
+    ASSERT_EQ(both.weighed.largest, weighed.largest);
   }
 }
 
@@ -163,7 +180,7 @@ TEST(BoundaryGap, OfACorePrunedByToleranceIsAtMostTheTolerance)
     for (std::size_t i = 0; i + 1 < heights.size(); i += 1 + heights.size() / 8)
     {
       const MedialComplex rest = PruneByTolerance(core, heights[i]);
-      ASSERT_LE(LargestBoundaryGap(volume.shape, weights, rest.positions, rest.radius).largest,
+      ASSERT_LE(LargestWeighedGap(volume.shape, weights, rest.positions, rest.radius).largest,
                 heights[i] * (1 + 1e-12) + 1e-9);
     }
   }

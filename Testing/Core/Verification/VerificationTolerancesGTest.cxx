@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace voxelcore
 {
@@ -53,6 +55,43 @@ TEST_F(ToleranceChecks, SeeThatTheBoundaryLiesFarther)
 {
   const double gap = *Verify(kHeight).boundaryGap;
   EXPECT_EQ(testing::FailedChecks(Verify(0.999 * gap)), Names{ "coverage" });
+}
+
+// In thick slices a height counts in full where the boundary runs across them only.
+TEST(ToleranceChecksInSlices, SeeWhatOneLengthForAllDirectionsLeaves)
+{
+  const testing::Spacing3 spacing{ 1, 1, 3 };
+  const double            height = 1.2 * std::sqrt(11.0);
+  const VoxelShape        shape = testing::ShapeWhere({ 60, 30, 10 }, [](int x, int y, int z) {
+    const double across = std::hypot(y - 14.5, 3 * (z - 4.5));
+    return std::hypot(x - 15, across) < 10 || (x >= 15 && x < 57 && across < 4); // a ball with a rod
+  });
+  const SpacingWeights    weights = ComputeSpacingWeights(spacing);
+  const auto              points = BoundaryVertices(shape);
+  for (const bool byDirection : { true, false })
+  {
+    DelaunayCells cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
+    TouchingBalls touching = LargestTouchingBalls(shape, cells, points, weights);
+    if (!byDirection)
+    {
+      touching.weights.clear();
+    }
+    testing::VerificationCase rest = testing::MakeCase(shape, spacing);
+    rest.core = BuildVoxelCore(shape, points, std::move(cells), weights);
+    rest.core.tolerances = ComputeTolerances(rest.core, weights, points, std::move(touching));
+    rest.core = PruneByTolerance(rest.core, height);
+    VerificationInput input = testing::InputOf(rest);
+    input.pruningTolerance = height;
+    input.vertexTolerance = rest.core.tolerances.vertices;
+    input.edgeTolerance = rest.core.tolerances.edges;
+    input.faceTolerance = rest.core.tolerances.faces;
+    const VerificationReport report = VerifyComplex(input);
+    EXPECT_EQ(testing::FailedChecks(report), byDirection ? Names{} : Names{ "coverage" });
+    ASSERT_TRUE(report.boundaryGapShare.has_value());
+    EXPECT_LE(*report.boundaryGap, height);
+    EXPECT_GT(*report.boundaryGapShare, 0.7);
+    EXPECT_EQ(*report.boundaryGapShare > 1, !byDirection);
+  }
 }
 
 TEST_F(ToleranceChecks, SeeHeightsBelowTheWholesOrOutOfOrder)

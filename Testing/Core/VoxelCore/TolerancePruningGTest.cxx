@@ -269,7 +269,7 @@ TEST(TolerancePruning, DoesOtherWorkOnceAndPassesOnWhatItThrows)
   const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
-  const auto           touching = LargestTouchingBalls(cells, points, weights);
+  const auto           touching = LargestTouchingBalls(shape, cells, points, weights);
   const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
   ASSERT_GT(core.cells.FaceCount(), 10000U) << "too small for a second thread";
   int        done = 0;
@@ -289,7 +289,7 @@ TEST(TolerancePruning, CanBeCancelled)
   const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
   const auto           points = BoundaryVertices(shape);
   DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
-  auto                 touching = LargestTouchingBalls(cells, points, weights);
+  auto                 touching = LargestTouchingBalls(shape, cells, points, weights);
   const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
   EXPECT_THROW(
     ComputeTolerances(core, weights, points, std::move(touching), 0, [](std::string_view, double) { return false; }),

@@ -15,23 +15,24 @@ namespace voxelcore
 namespace
 {
 
-/** Largest distance of a boundary vertex to the balls of a core, in mm. */
-double
-BoundaryGapOf(const PlacedCore & core, const VoxelShape & voxels, const ImageGeometry & geometry)
+/** The largest gaps of boundary vertices to the balls of a core. */
+BoundaryGaps
+BoundaryGapsOf(const PlacedCore & core, const VoxelShape & voxels, const ImageGeometry & geometry)
 {
   std::vector<std::array<double, 3>> positions = core.core.positions;
   for (auto & position : positions)
   {
     position = PhysicalToLattice(geometry, position);
   }
-  return LargestBoundaryGap(voxels, ComputeSpacingWeights(geometry.spacing), positions, core.core.radius).largest;
+  return LargestBoundaryGaps(voxels, ComputeSpacingWeights(geometry.spacing), positions, core.core.radius);
 }
 
-/** By how much a boundary gap measured in LPS mm may exceed a height by rounding, mm. */
+/** By how much a weighed boundary gap measured in LPS mm may exceed a height by rounding, mm. */
 double
 BoundaryGapTolerance(const ImageGeometry & geometry)
 {
-  return 4 * PositionTolerance(geometry) * *std::max_element(geometry.spacing.begin(), geometry.spacing.end());
+  const auto [least, largest] = std::ranges::minmax(geometry.spacing);
+  return 4 * PositionTolerance(geometry) * largest * (largest / least); // nothing is weighed more
 }
 
 } // namespace
@@ -41,17 +42,24 @@ CertifyCoverage(CertifiedCore & core, const VoxelShape & voxels, const Certified
 {
   const ImageGeometry & geometry = shape.geometry;
   ToleranceNumbers &    tolerance = *core.numbers.tolerance;
-  tolerance.boundaryGapMm = BoundaryGapOf(core.core, voxels, geometry);
+  const BoundaryGaps    gaps = BoundaryGapsOf(core.core, voxels, geometry);
+  tolerance.boundaryGapMm = gaps.plain.largest;
   if (core.numbers.lambdaMm > 0)
   {
     return false;
   }
   const double promised =
-    core.numbers.refined ? RefinedGapBound(tolerance.heightMm, geometry.spacing) : tolerance.heightMm;
-  if (*tolerance.boundaryGapMm > promised + BoundaryGapTolerance(geometry))
+    core.numbers.refined ? RefinedGapBound(tolerance.heightMm, geometry.spacing).weighed : tolerance.heightMm;
+  const auto [least, largest] = std::ranges::minmax(geometry.spacing);
+  if (least != largest && promised > 0)
+  {
+    tolerance.boundaryGapShare = gaps.weighed.largest / promised;
+  }
+  if (gaps.weighed.largest > promised + BoundaryGapTolerance(geometry))
   {
     RefuseResult(shape.name,
-                 "a boundary vertex lies " + std::to_string(*tolerance.boundaryGapMm) + InUnit(" mm", geometry.unit) +
+                 "a boundary vertex lies " + std::to_string(gaps.weighed.largest) +
+                   InUnit(least == largest ? " mm" : " mm, weighed by direction,", geometry.unit) +
                    " from its core pruned at tolerance " + tolerance.height);
   }
   return true;

@@ -150,7 +150,7 @@ MakeWholeCore(const VoxelShape &       voxels,
 
     const ProgressCallback building = plan.Next("core");
     ReportProgress(building, "", 0);
-    TouchingBalls touching = byTolerance ? LargestTouchingBalls(cells, points, weights) : TouchingBalls();
+    TouchingBalls touching = byTolerance ? LargestTouchingBalls(voxels, cells, points, weights) : TouchingBalls();
     if (Refines(request))
     {
       whole.kept.edgePoints = NearestToEdges(cells);

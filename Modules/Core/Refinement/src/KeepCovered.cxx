@@ -22,13 +22,13 @@ class BallWays
 public:
   BallWays(const RefinementInput & input,
            const PointTree &       boundary,
-           double                  height,
+           const ToleranceAt &     tolerance,
            const FormerBalls &     former,
            RefinedCore &           refined)
     : m_Input(input)
     , m_Boundary(boundary)
     , m_Weights(ComputeSpacingWeights(input.spacing))
-    , m_Height(height)
+    , m_Tolerance(tolerance)
     , m_Former(former)
     , m_Refined(refined)
     , m_Moves(refined.displacement)
@@ -131,7 +131,7 @@ private:
     m_Refined.core.radius[vertex] = ball->radius;
   }
 
-  /** Which of some boundary vertices lie beyond the height, ascending; notes a ball that covers each of the others. */
+  /** Which of some boundary vertices lie beyond their tolerance, ascending; notes a ball that covers each other one. */
   template <typename TPoint>
   std::vector<std::uint32_t>
   FindOpen(std::size_t count, const TPoint & pointAt)
@@ -146,8 +146,9 @@ private:
       for (std::ptrdiff_t i = 0; i < last; ++i)
       {
         const std::size_t point = pointAt(static_cast<std::size_t>(i));
-        const double      gap = balls.Gap(PlaceOf(point), m_Height, nearest);
-        m_Cover[point] = gap <= m_Height ? balls.BallOf(nearest) : kNone;
+        const double      most = m_Tolerance(point);
+        const double      gap = balls.Gap(PlaceOf(point), most, nearest);
+        m_Cover[point] = gap <= most ? balls.BallOf(nearest) : kNone;
       }
     }
     std::vector<std::uint32_t> open;
@@ -168,7 +169,7 @@ private:
     for (int step = m_Steps[vertex] - 1; step > 0; --step)
     {
       const std::optional<Ball> ball = At(vertex, step);
-      if (ball && Gap(point, AddScaled(m_Former.positions[vertex], 1, ball->move), ball->radius) <= m_Height)
+      if (ball && Gap(point, AddScaled(m_Former.positions[vertex], 1, ball->move), ball->radius) <= m_Tolerance(point))
       {
         return step;
       }
@@ -195,7 +196,8 @@ private:
       {
         auto & [vertex, steps] = wanted[static_cast<std::size_t>(i)];
         const std::uint32_t point = open[static_cast<std::size_t>(i)];
-        failure.Guard(static_cast<std::size_t>(i), [&] { m_FormerBalls->FindWithin(PlaceOf(point), m_Height, kept); });
+        failure.Guard(static_cast<std::size_t>(i),
+                      [&] { m_FormerBalls->FindWithin(PlaceOf(point), m_Tolerance(point), kept); });
         for (const std::uint32_t one : kept)
         {
           const int needed = m_Steps[one] > 0 ? StepsToCover(point, one) : -1;
@@ -276,7 +278,7 @@ private:
   const RefinementInput &    m_Input;
   const PointTree &          m_Boundary;
   const SpacingWeights       m_Weights;
-  const double               m_Height;
+  const ToleranceAt &        m_Tolerance;
   const FormerBalls &        m_Former;
   RefinedCore &              m_Refined;
   const std::vector<Vector3> m_Moves;  ///< whole ways
@@ -292,11 +294,11 @@ private:
 CoveredBoundary
 KeepBoundaryCovered(const RefinementInput & input,
                     const PointTree &       boundary,
-                    double                  height,
+                    const ToleranceAt &     tolerance,
                     const FormerBalls &     former,
                     RefinedCore &           refined)
 {
-  return BallWays(input, boundary, height, former, refined).Run();
+  return BallWays(input, boundary, tolerance, former, refined).Run();
 }
 
 } // namespace voxelcore

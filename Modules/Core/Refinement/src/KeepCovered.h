@@ -6,6 +6,8 @@
 #include "voxelcore/Refinement/Refinement.h"
 #include "voxelcore/VoxelCore/BallTree.h"
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -18,6 +20,27 @@ struct FormerBalls
   std::vector<double>  radius;    ///< mm
 };
 
+/** How far each boundary vertex may lie from the balls, mm. */
+class ToleranceAt
+{
+public:
+  /** `weights`: ToleranceWeights() of the boundary vertices. */
+  ToleranceAt(double height, std::vector<double> weights)
+    : m_Height(height)
+    , m_Weights(std::move(weights))
+  {}
+
+  double
+  operator()(std::size_t point) const
+  {
+    return m_Weights.empty() ? m_Height : m_Height / m_Weights[point];
+  }
+
+private:
+  double              m_Height;
+  std::vector<double> m_Weights;
+};
+
 /** The balls of a refined core, and which one of them covers each boundary vertex. */
 struct CoveredBoundary
 {
@@ -28,14 +51,14 @@ struct CoveredBoundary
   std::vector<ElementIndex>  back; ///< the vertices that have gone back, ascending
 };
 
-/** Takes back of moves and radii what leaves a boundary vertex farther than `height` mm from all balls that lay within
- *  it of a ball before. Of the balls that kept it the one goes back that has least to, in sixteenths of its way; radii
- *  stay within half a voxel's diagonal of the distance of the nearest boundary vertex, vertices in the shape, triangles
- *  unturned. The same bits for every number of threads. */
+/** Takes back of moves and radii what leaves a boundary vertex farther than its tolerance from all balls that lay
+ *  within it of a ball before. Of the balls that kept it the one goes back that has least to, in sixteenths of its way;
+ *  radii stay within half a voxel's diagonal of the distance of the nearest boundary vertex, vertices in the shape,
+ *  triangles unturned. The same bits for every number of threads. */
 CoveredBoundary
 KeepBoundaryCovered(const RefinementInput & input,
                     const PointTree &       boundary,
-                    double                  height,
+                    const ToleranceAt &     tolerance,
                     const FormerBalls &     former,
                     RefinedCore &           refined);
 

@@ -8,6 +8,7 @@
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/VoxelCore/ToleranceWeights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,13 +111,15 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
     BoundRadii(boundary, input.spacing, former.radius, refined.back());
     if (height)
     {
-      const double    most = std::max(*height, 0.5 * Length(input.spacing));
-      CoveredBoundary covered = KeepBoundaryCovered(input, boundary, most, former, refined.back());
+      const ToleranceAt tolerance(
+        std::max(*height, 0.5 * Length(input.spacing)),
+        ToleranceWeights(*input.shape, ComputeSpacingWeights(input.spacing), input.Boundary()));
+      CoveredBoundary covered = KeepBoundaryCovered(input, boundary, tolerance, former, refined.back());
       moved.insert(moved.end(), covered.back.begin(), covered.back.end());
       std::sort(moved.begin(), moved.end());
       moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
       working.MeasureAgain(finder, moved, refined.back());
-      TrimRims(input, most, std::move(covered), refined.back());
+      TrimRims(input, tolerance, std::move(covered), refined.back());
     }
   };
   const auto end = [&] {

@@ -24,9 +24,12 @@ constexpr std::uint32_t kNone = 0xFFFFFFFF;
 class Cover
 {
 public:
-  Cover(const std::vector<LatticePoint> & points, double height, CoveredBoundary covered, std::size_t balls)
+  Cover(const std::vector<LatticePoint> & points,
+        const ToleranceAt &               tolerance,
+        CoveredBoundary                   covered,
+        std::size_t                       balls)
     : m_Points(points)
-    , m_Height(height)
+    , m_Tolerance(tolerance)
     , m_Balls(std::move(covered.balls))
     , m_First(balls, kNone)
     , m_Next(points.size(), kNone)
@@ -45,7 +48,7 @@ public:
     }
   }
 
-  /** Takes balls away, if what each of them covers lies within the height of another one. */
+  /** Takes balls away, if what each of them covers lies within its tolerance of another one. */
   bool
   DoesWithout(std::span<const ElementIndex> balls, const std::vector<double> & radius)
   {
@@ -61,7 +64,8 @@ public:
       {
         const LatticePoint & p = m_Points[point];
         const Vector3        place{ static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z) };
-        if (m_Balls.Gap(place, m_Height, nearest) > m_Height)
+        const double         most = m_Tolerance(point);
+        if (m_Balls.Gap(place, most, nearest) > most)
         {
           for (const ElementIndex one : balls)
           {
@@ -88,7 +92,7 @@ private:
   }
 
   const std::vector<LatticePoint> &                    m_Points;
-  const double                                         m_Height;
+  const ToleranceAt &                                  m_Tolerance;
   BallTree                                             m_Balls;
   std::vector<std::uint32_t>                           m_First;  ///< boundary vertex that each ball covers
   std::vector<std::uint32_t>                           m_Next;   ///< boundary vertex of the same ball
@@ -99,11 +103,14 @@ private:
 class Trimming
 {
 public:
-  Trimming(const RefinementInput & input, double height, CoveredBoundary covered, const RefinedCore & refined)
+  Trimming(const RefinementInput & input,
+           const ToleranceAt &     tolerance,
+           CoveredBoundary         covered,
+           const RefinedCore &     refined)
     : m_Spacing(input.spacing)
     , m_Core(refined.core)
     , m_Cells(refined.core.cells)
-    , m_Cover(input.Boundary(), height, std::move(covered), m_Core.positions.size())
+    , m_Cover(input.Boundary(), tolerance, std::move(covered), m_Core.positions.size())
     , m_Live{ std::vector<std::uint8_t>(m_Cells.vertexCount, 1),
               std::vector<std::uint8_t>(m_Cells.edges.size(), 1),
               std::vector<std::uint8_t>(m_Cells.FaceCount(), 1) }
@@ -358,11 +365,11 @@ private:
 } // namespace
 
 void
-TrimRims(const RefinementInput & input, double height, CoveredBoundary covered, RefinedCore & refined)
+TrimRims(const RefinementInput & input, const ToleranceAt & tolerance, CoveredBoundary covered, RefinedCore & refined)
 {
   LiveElements live;
   {
-    Trimming trimming(input, height, std::move(covered), refined);
+    Trimming trimming(input, tolerance, std::move(covered), refined);
     refined.hairsTaken = trimming.TakeHairs();
     trimming.TakeCorners();
     live = std::move(trimming).Take();

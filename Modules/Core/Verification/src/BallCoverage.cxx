@@ -1,6 +1,7 @@
 #include "voxelcore/Verification/BallCoverage.h"
 
 #include "BallBoxes.h"
+#include "BoundaryNormals.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Verification/OctantScan.h"
 
@@ -30,32 +31,24 @@ struct Farthest
   }
 };
 
-} // namespace
-
+/** By more than divisions and sums round. */
 double
-RefinedGapBound(double                                 height,
-                const std::array<double, 3> &          spacing,
-                std::span<const std::array<double, 3>> movesBeforePruning)
+ALittleLess(double number)
 {
-  const double half = 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]);
-  if (movesBeforePruning.empty())
-  {
-    return std::max(height, half);
-  }
-  double farthest = 0;
-  for (const auto & d : movesBeforePruning)
-  {
-    farthest = std::max(farthest, std::hypot(d[0], d[1], d[2]));
-  }
-  return height + 2 * farthest + half;
+  return number * (number > 0 ? 1 - 1e-12 : 1 + 1e-12);
 }
 
+/** `weigh` is asked for weights at places, from 1 to `largest`. */
+template <typename TWeigh>
 BoundaryGap
-LargestBoundaryGap(const VoxelShape &                     shape,
-                   const SpacingWeights &                 weights,
-                   std::span<const std::array<double, 3>> positions,
-                   std::span<const double>                radius,
-                   const ProgressCallback &               progress)
+SearchLargestGap(const VoxelShape &                     shape,
+                 const SpacingWeights &                 weights,
+                 std::span<const std::array<double, 3>> positions,
+                 std::span<const double>                radius,
+                 double                                 beyond,
+                 double                                 largest,
+                 const TWeigh &                         weigh,
+                 const ProgressCallback &               progress)
 {
   const std::vector<LatticePoint> points = ScanOctants(shape).boundary;
   const verification::BallBoxes   balls(positions, radius, weights);
@@ -90,10 +83,11 @@ LargestBoundaryGap(const VoxelShape &                     shape,
                                              static_cast<double>(p.z) };
           // Around it in the row before, then along its own row.
           std::size_t * const at = &below[static_cast<std::size_t>(p.x - shape.Box().lower[0])];
+          const double        near = beyond + ALittleLess(std::min(own.gap, own.gap / largest));
           bool                isNear = false;
           for (const std::size_t ball : { at[1], nearest, at[0], at[2] })
           {
-            if (balls.IsNearer(place, own.gap, ball))
+            if (balls.IsNearer(place, near, ball))
             {
               nearest = ball;
               isNear = true;
@@ -102,7 +96,13 @@ LargestBoundaryGap(const VoxelShape &                     shape,
           }
           if (!isNear)
           {
-            own.Take(balls.SmallestGap(place, own.gap, nearest), i * step);
+            const double weight = weigh(p);
+            const double enough = beyond + ALittleLess(own.gap / weight);
+            const double gap = balls.SmallestGap(place, enough, nearest);
+            if (gap >= enough)
+            {
+              own.Take(weight * (gap - beyond), i * step);
+            }
           }
           at[1] = nearest;
         }
@@ -120,6 +120,72 @@ LargestBoundaryGap(const VoxelShape &                     shape,
   }
   result.largest = std::max(result.largest, 0.0);
   return result;
+}
+
+} // namespace
+
+PromisedGap
+RefinedGapBound(double                                 height,
+                const std::array<double, 3> &          spacing,
+                std::span<const std::array<double, 3>> movesBeforePruning)
+{
+  const double half = 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]);
+  if (movesBeforePruning.empty())
+  {
+    return { std::max(height, half), 0 };
+  }
+  double farthest = 0;
+  for (const auto & d : movesBeforePruning)
+  {
+    farthest = std::max(farthest, std::hypot(d[0], d[1], d[2]));
+  }
+  return { height, 2 * farthest + half };
+}
+
+BoundaryGap
+LargestBoundaryGap(const VoxelShape &                     shape,
+                   const SpacingWeights &                 weights,
+                   std::span<const std::array<double, 3>> positions,
+                   std::span<const double>                radius,
+                   const ProgressCallback &               progress)
+{
+  return SearchLargestGap(
+    shape,
+    weights,
+    positions,
+    radius,
+    0,
+    1,
+    [](const LatticePoint &) { return 1.0; },
+    progress);
+}
+
+BoundaryGap
+LargestWeighedGap(const VoxelShape &                     shape,
+                  const SpacingWeights &                 weights,
+                  std::span<const std::array<double, 3>> positions,
+                  std::span<const double>                radius,
+                  double                                 beyond,
+                  const ProgressCallback &               progress)
+{
+  const verification::BoundaryNormals normals(shape, weights);
+  const auto                          weigh = [&](const LatticePoint & corner) { return normals.WeightAt(corner); };
+  return SearchLargestGap(shape, weights, positions, radius, beyond, normals.Largest(), weigh, progress);
+}
+
+BoundaryGaps
+LargestBoundaryGaps(const VoxelShape &                     shape,
+                    const SpacingWeights &                 weights,
+                    std::span<const std::array<double, 3>> positions,
+                    std::span<const double>                radius,
+                    double                                 beyond)
+{
+  BoundaryGaps gaps;
+  gaps.plain = LargestBoundaryGap(shape, weights, positions, radius);
+  const auto [least, largest] = std::ranges::minmax(weights.weight);
+  gaps.weighed = least == largest ? BoundaryGap{ std::max(gaps.plain.largest - beyond, 0.0), gaps.plain.place }
+                                  : LargestWeighedGap(shape, weights, positions, radius, beyond);
+  return gaps;
 }
 
 } // namespace voxelcore

@@ -54,24 +54,35 @@ CheckTolerances(VerificationReport & report, const Subject & subject)
 }
 
 void
-CheckCoverage(VerificationReport & report, const VerificationInput & input, double positionTolerance, double promised)
+CheckCoverage(VerificationReport &      report,
+              const VerificationInput & input,
+              double                    positionTolerance,
+              const PromisedGap &       promised)
 {
-  const BoundaryGap gap = LargestBoundaryGap(*input.shape, input.weights, input.positions, input.radius);
-  report.boundaryGap = gap.largest;
+  const SpacingWeights & weights = input.weights;
+  const BoundaryGaps gaps = LargestBoundaryGaps(*input.shape, weights, input.positions, input.radius, promised.beyond);
+  report.boundaryGap = gaps.plain.largest;
   if (input.threshold.value_or(0.0) > 0)
   {
     return;
   }
-  const auto         largestWeight = *std::max_element(input.weights.weight.begin(), input.weights.weight.end());
-  const double       slack = 4 * positionTolerance * static_cast<double>(largestWeight) * input.weights.unit;
-  const bool         covered = gap.largest <= promised * (1 + kMeasureTolerance) + slack;
-  const LatticePoint place{ gap.place[0], gap.place[1], gap.place[2] };
-  report.checks.push_back({ "coverage",
-                            covered,
-                            covered ? 0U : 1U,
-                            covered ? std::string()
-                                    : "boundary vertex " + Describe(place) + " lies " + Describe(gap.largest) +
-                                        " mm from the nearest ball, " + Describe(promised) + " mm are promised." });
+  const auto [least, largest] = std::ranges::minmax(weights.weight);
+  if (least != largest && promised.weighed > 0)
+  {
+    report.boundaryGapShare = gaps.weighed.largest / promised.weighed;
+  }
+  const double       slack = 4 * positionTolerance * static_cast<double>(largest) * weights.unit;
+  const double       most = static_cast<double>(largest) / static_cast<double>(least); // that anything is weighed
+  const bool         covered = gaps.weighed.largest <= promised.weighed * (1 + kMeasureTolerance) + most * slack;
+  const LatticePoint place{ gaps.weighed.place[0], gaps.weighed.place[1], gaps.weighed.place[2] };
+  report.checks.push_back(
+    { "coverage",
+      covered,
+      covered ? 0U : 1U,
+      covered ? std::string()
+              : "boundary vertex " + Describe(place) + " lies " + Describe(gaps.weighed.largest + promised.beyond) +
+                  (least == largest ? " mm" : " mm, weighed by direction,") + " from the nearest ball, " +
+                  Describe(promised.weighed + promised.beyond) + " mm are promised." });
 }
 
 } // namespace voxelcore::verification

@@ -4,6 +4,7 @@
 #include "NearestSets.h"
 #include "Vectors.h"
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Verification/BallCoverage.h"
 #include "voxelcore/Verification/Verification.h"
 
 #include <algorithm>
@@ -122,7 +123,10 @@ CheckPruning(VerificationReport & report, const Subject & subject);
 void
 CheckTolerances(VerificationReport & report, const Subject & subject);
 void
-CheckCoverage(VerificationReport & report, const VerificationInput & input, double positionTolerance, double promised);
+CheckCoverage(VerificationReport &      report,
+              const VerificationInput & input,
+              double                    positionTolerance,
+              const PromisedGap &       promised);
 
 /** "shape Euler number", "topology"; fills shapeTopology. `recount` is the shape's Euler number by other means. */
 void

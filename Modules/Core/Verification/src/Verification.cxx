@@ -199,7 +199,7 @@ CheckGeometry(VerificationReport &      report,
   if (input.pruningTolerance)
   {
     CheckTolerances(report, subject);
-    CheckCoverage(report, subject.input, subject.tolerance, *subject.input.pruningTolerance);
+    CheckCoverage(report, subject.input, subject.tolerance, { *subject.input.pruningTolerance, 0 });
     return;
   }
   CheckCompleteness(report, subject);

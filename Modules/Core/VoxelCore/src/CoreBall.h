@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace voxelcore
 {
@@ -39,12 +41,47 @@ SquaredDistance(const BallCentre & p, const BallCentre & q)
   return dx * dx + dy * dy + dz * dz;
 }
 
-/** How far a place lies from the ball of y. */
-inline double
-Gap(const BallCentre & place, const CoreBall & y)
+/** Of a boundary vertex, mm, and what its gaps are to be multiplied by (ToleranceWeights.h). */
+struct WeighedPlace
 {
-  return std::sqrt(SquaredDistance(place, y.centre)) - y.radius;
+  BallCentre place;
+  double     weight;
+};
+
+/** How far a boundary vertex lies from the ball of y, weighed. */
+inline double
+Gap(const WeighedPlace & at, const CoreBall & y)
+{
+  return at.weight * (std::sqrt(SquaredDistance(at.place, y.centre)) - y.radius);
 }
+
+/** Which boundary vertices each ball touches, where they are weighed: else what sticks out says enough. */
+struct TouchedPlaces
+{
+  std::vector<WeighedPlace>      places;
+  std::span<const std::uint32_t> offsets; ///< balls + 1
+  std::span<const std::uint32_t> touched; ///< indices of places
+  double                         largestWeight = 1;
+
+  bool
+  AreWeighed() const
+  {
+    return !places.empty();
+  }
+
+  /** The greatest gap from the ball of y to what a ball touches; one that is at least `enough` where there is one. */
+  double
+  WorstGap(ElementIndex ball, const CoreBall & y, double enough) const
+  {
+    double worst = -HUGE_VAL;
+    for (std::uint32_t i = offsets[ball]; i < offsets[ball + 1] && worst < enough; ++i)
+    {
+      const double gap = Gap(places[touched[i]], y);
+      worst = worst < gap ? gap : worst;
+    }
+    return worst;
+  }
+};
 
 /** By how much the ball of x sticks out of the ball of y. */
 inline double

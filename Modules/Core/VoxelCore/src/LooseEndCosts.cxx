@@ -134,25 +134,13 @@ LooseEnds::CostOf(ElementIndex vertex)
   }
   // Mostly the next vertex of the edge will do, and mostly that is seen without a look at what is kept.
   const CoreBall & heir = m_Balls[m_Heir];
-  m_HeirGap = loose.bound + Protrusion(loose, heir);
+  const double     beyond = Protrusion(loose, heir);
+  m_HeirGap = loose.bound + (beyond > 0 ? m_LargestWeight * beyond : beyond); // no weight is less than 1
   if (m_HeirGap <= m_Height || m_Height > m_Levels.Measured())
   {
     return m_HeirGap;
   }
-  double        farthest = 0;
-  std::uint32_t before = loose.lastKept;
-  std::uint32_t point = loose.lastKept;
-  do
-  {
-    const std::uint32_t next = m_NextKept[point];
-    if (const double squared = SquaredDistance(PlaceOf(next), heir.centre); squared > farthest)
-    {
-      farthest = squared;
-      before = point;
-    }
-    point = next;
-  } while (point != loose.lastKept);
-  m_HeirGap = std::sqrt(farthest) - heir.radius;
+  const std::uint32_t before = FarthestKept(loose.lastKept, heir);
   if (m_HeirGap <= m_Height)
   {
     return m_HeirGap;
@@ -161,8 +149,31 @@ LooseEnds::CostOf(ElementIndex vertex)
   return FindHomes(vertex);
 }
 
+// The one before, in the ring, that which lies farthest from its heir.
+std::uint32_t
+LooseEnds::FarthestKept(std::uint32_t last, const CoreBall & heir)
+{
+  double        farthest = m_Weights.empty() ? 0 : -HUGE_VAL;
+  std::uint32_t before = last;
+  std::uint32_t point = last;
+  do
+  {
+    const std::uint32_t next = m_NextKept[point];
+    const WeighedPlace  place = PlaceOf(next);
+    const double        far = m_Weights.empty() ? SquaredDistance(place.place, heir.centre) : Gap(place, heir);
+    if (far > farthest)
+    {
+      farthest = far;
+      before = point;
+    }
+    point = next;
+  } while (point != last);
+  m_HeirGap = m_Weights.empty() ? std::sqrt(farthest) - heir.radius : farthest;
+  return before;
+}
+
 double
-LooseEnds::OfferHome(Home & home, const BallCentre & place, ElementIndex vertex) const
+LooseEnds::OfferHome(Home & home, const WeighedPlace & place, ElementIndex vertex) const
 {
   const double gap = Gap(place, m_Balls[vertex]);
   if (gap < home.gap)
@@ -213,7 +224,7 @@ LooseEnds::OfferCandidates(std::uint32_t last)
     const double enough = std::max(m_Height, farthest.gap);
     if (home.gap > farthest.gap)
     {
-      const BallCentre place = PlaceOf(point);
+      const WeighedPlace place = PlaceOf(point);
       while (home.gap > enough && home.next < m_Candidates.Count())
       {
         OfferHome(home, place, m_Candidates[home.next++]);
@@ -230,7 +241,7 @@ LooseEnds::OfferCandidates(std::uint32_t last)
 // Adds candidates around the next vertex until one is near enough to a place that none is yet, always on from the
 // nearest to it so far: at the rim of a sheet balls beside the loose end are as near as those further in.
 void
-LooseEnds::SearchAround(ElementIndex vertex, const BallCentre & place, Home & home)
+LooseEnds::SearchAround(ElementIndex vertex, const WeighedPlace & place, Home & home)
 {
   const auto isFarther = [](const Near & a, const Near & b) {
     return a.gap != b.gap ? a.gap > b.gap : a.vertex > b.vertex;

@@ -2,6 +2,8 @@
 
 #include "voxelcore/Base/Prefetch.h"
 
+#include <algorithm>
+
 namespace voxelcore
 {
 
@@ -9,18 +11,24 @@ LooseEnds::LooseEnds(const CellComplex &               cells,
                      const LiveElements &              left,
                      const std::vector<LatticePoint> & points,
                      const BallCentre &                scale,
+                     const std::vector<double> &       weights,
                      const std::vector<ElementIndex> & largest,
                      const ToleranceLevels &           levels,
                      std::vector<CoreBall> &           balls)
   : m_Cells(cells)
   , m_Points(points)
   , m_Scale(scale)
+  , m_Weights(weights)
   , m_Levels(levels)
   , m_Balls(balls)
   , m_Standing(cells.vertexCount)
   , m_NextKept(points.size())
   , m_Turns(levels.Count())
 {
+  for (const double weight : weights)
+  {
+    m_LargestWeight = std::max(m_LargestWeight, weight);
+  }
   for (std::size_t vertex = 0; vertex < left.vertices.size(); ++vertex)
   {
     if (left.vertices[vertex] == 0)

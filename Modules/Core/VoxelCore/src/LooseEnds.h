@@ -23,11 +23,12 @@ class LooseEnds
 {
 public:
   /** `left`: what is there to begin with; all where it is empty. `scale` is the mm of a lattice unit along each axis,
-   *  `largest` that of TouchingBalls. */
+   *  `weights` (empty: all 1) and `largest` those of TouchingBalls. */
   LooseEnds(const CellComplex &               cells,
             const LiveElements &              left,
             const std::vector<LatticePoint> & points,
             const BallCentre &                scale,
+            const std::vector<double> &       weights,
             const std::vector<ElementIndex> & largest,
             const ToleranceLevels &           levels,
             std::vector<CoreBall> &           balls);
@@ -65,9 +66,9 @@ private:
   /** Of what a vertex keeps. */
   struct Farthest
   {
-    double      gap;
-    std::size_t home;
-    BallCentre  place;
+    double       gap;
+    std::size_t  home;
+    WeighedPlace place;
   };
   struct Near
   {
@@ -115,12 +116,13 @@ private:
     std::size_t               m_Count = 0;
   };
 
-  BallCentre
+  WeighedPlace
   PlaceOf(std::uint32_t point) const
   {
     const LatticePoint & p = m_Points[point];
     const LatticePoint & first = m_Points.front(); // as TouchingBalls has it
-    return { m_Scale[0] * (p.x - first.x), m_Scale[1] * (p.y - first.y), m_Scale[2] * (p.z - first.z) };
+    return { { m_Scale[0] * (p.x - first.x), m_Scale[1] * (p.y - first.y), m_Scale[2] * (p.z - first.z) },
+             m_Weights.empty() ? 1.0 : m_Weights[point] };
   }
   bool
   IsLive(ElementIndex vertex) const
@@ -139,18 +141,20 @@ private:
   // When other balls are near enough to the boundary vertices that a loose vertex keeps.
   double
   CostOf(ElementIndex vertex);
+  std::uint32_t
+  FarthestKept(std::uint32_t last, const CoreBall & heir);
   double
   FindHomes(ElementIndex vertex);
   Farthest
   OfferCandidates(std::uint32_t last);
   double
-  OfferHome(Home & home, const BallCentre & place, ElementIndex vertex) const;
+  OfferHome(Home & home, const WeighedPlace & place, ElementIndex vertex) const;
   ElementIndex
   Uphill(ElementIndex vertex);
   void
   CollectKeepers(ElementIndex vertex, ElementIndex other);
   void
-  SearchAround(ElementIndex vertex, const BallCentre & place, Home & home);
+  SearchAround(ElementIndex vertex, const WeighedPlace & place, Home & home);
 
   // What dropping that edge will ask for, step by step.
   void
@@ -165,6 +169,8 @@ private:
   const CellComplex &                                m_Cells;
   const std::vector<LatticePoint> &                  m_Points;
   BallCentre                                         m_Scale;
+  const std::vector<double> &                        m_Weights; // of the points; empty: all 1
+  double                                             m_LargestWeight = 1;
   const ToleranceLevels &                            m_Levels;
   std::vector<CoreBall> &                            m_Balls;
   std::vector<RemainingElements>                     m_Standing;       // vertices, with the edges at each

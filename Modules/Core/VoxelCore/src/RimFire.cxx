@@ -74,9 +74,11 @@ RimFire::FetchAhead(std::size_t at) const
 RimFire::RimFire(const CellComplex &     cells,
                  const LiveElements &    left,
                  const ToleranceLevels & levels,
+                 const TouchedPlaces &   touched,
                  std::vector<CoreBall> & balls)
   : m_Cells(cells)
   , m_Levels(levels)
+  , m_Touched(touched)
   , m_Balls(balls)
   , m_FetchesAhead(balls.size() > kCachedBalls)
   , m_Edges(cells.edges.size())
@@ -169,6 +171,26 @@ RimFire::MeetingCorners(std::uint32_t place, std::size_t count) const
   return free | free << 1U | free >> (count - 1);
 }
 
+// Of what the witness and the end that fire comes from touch, for each of two ends. Of the greater of the two it is
+// enough to know that it is.
+TwoLengths
+RimFire::WorstGaps(ElementIndex a, ElementIndex c, const CoreBall & y) const
+{
+  const ElementIndex witnessA = m_Balls[a].witness;
+  const ElementIndex witnessC = m_Balls[c].witness;
+  // Mostly the witness, farther out, decides, which is seen by how far the end sticks out.
+  const auto withEnd = [&](double gap, ElementIndex end, double enough) {
+    const double out = Protrusion(m_Balls[end], y);
+    const bool   decides = m_Balls[end].witness == end || gap >= enough ||
+                         (out > 0 ? m_Touched.largestWeight * out : out) <= gap; // no weight is less than 1
+    return decides ? gap : std::max(gap, m_Touched.WorstGap(end, y, enough));
+  };
+  const double fromA = m_Touched.WorstGap(witnessA, y, HUGE_VAL);
+  const double worstA = withEnd(fromA, a, HUGE_VAL);
+  const double fromC = witnessC == witnessA ? fromA : m_Touched.WorstGap(witnessC, y, worstA);
+  return TwoLengths{ worstA, withEnd(fromC, c, worstA) };
+}
+
 // When fire that comes over a free edge has crossed its face.
 double
 RimFire::CostOf(ElementIndex edge, ReachedVertices & reached) const
@@ -200,9 +222,10 @@ RimFire::CostOf(ElementIndex edge, ReachedVertices & reached) const
     const std::size_t before = i;
     i = i + 1 == count ? 0 : i + 1;
     const CoreBall & w = m_Balls[corners[i]];
-    const TwoLengths from = Larger(Protrusions(ends, w), Protrusions(witnesses, w));
-    const double     across = std::max(kMargin * std::min(from[0], from[1]), w.burnt);
-    const bool       meets = areNoted ? (meeting >> i & 1U) != 0 : IsSideFree(place, before) || IsSideFree(place, i);
+    const TwoLengths from =
+      m_Touched.AreWeighed() ? WorstGaps(a, c, w) : Larger(Protrusions(ends, w), Protrusions(witnesses, w));
+    const double across = std::max(kMargin * std::min(from[0], from[1]), w.burnt);
+    const bool   meets = areNoted ? (meeting >> i & 1U) != 0 : IsSideFree(place, before) || IsSideFree(place, i);
     cost = std::max(cost, meets ? (w.burnt + across) / 2 : across);
     reached.list[reached.count] = { corners[i], from[1] < from[0] ? atC.witness : atA.witness, across };
     reached.count += meets ? 0 : 1;

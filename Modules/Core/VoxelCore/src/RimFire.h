@@ -21,10 +21,12 @@ namespace voxelcore
 class RimFire
 {
 public:
-  /** `left`: what is there to begin with; all where it is empty. */
+  /** `left`: what is there to begin with; all where it is empty. Where `touched` are weighed, a ball must not lie
+   *  farther from what those before it touch; else these must not stick out of it. */
   RimFire(const CellComplex &     cells,
           const LiveElements &    left,
           const ToleranceLevels & levels,
+          const TouchedPlaces &   touched,
           std::vector<CoreBall> & balls);
 
   /** Burns what goes at this level; levels are to be taken in order. */
@@ -112,6 +114,8 @@ private:
   OfferAll();
   double
   CostOf(ElementIndex edge, ReachedVertices & reached) const;
+  TwoLengths
+  WorstGaps(ElementIndex a, ElementIndex c, const CoreBall & y) const;
   std::uint64_t
   MeetingCorners(std::uint32_t place, std::size_t count) const;
   std::size_t
@@ -131,6 +135,7 @@ private:
 
   const CellComplex &                    m_Cells;
   const ToleranceLevels &                m_Levels;
+  const TouchedPlaces &                  m_Touched;
   std::vector<CoreBall> &                m_Balls;
   bool                                   m_FetchesAhead;
   std::vector<RemainingElements>         m_Edges;

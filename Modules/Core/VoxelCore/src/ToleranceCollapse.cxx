@@ -119,6 +119,27 @@ BallsOf(const MedialComplex & core, std::vector<std::array<double, 3>> places, c
   return balls;
 }
 
+TouchedPlaces
+TouchedBy(const TouchingBalls & touching, const std::vector<LatticePoint> & points, const BallCentre & scale)
+{
+  TouchedPlaces touched{ std::vector<WeighedPlace>(touching.weights.size()), touching.offsets, touching.touched };
+  for (const double weight : touching.weights)
+  {
+    touched.largestWeight = std::max(touched.largestWeight, weight);
+  }
+  RunInParts(touched.places.size() > 10000, touched.places.size(), [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+    {
+      const LatticePoint & p = points[i];
+      touched.places[i] = {
+        { scale[0] * (p.x - points[0].x), scale[1] * (p.y - points[0].y), scale[2] * (p.z - points[0].z) },
+        touching.weights[i]
+      };
+    }
+  });
+  return touched;
+}
+
 } // namespace
 
 ToleranceValues
@@ -135,6 +156,7 @@ ComputeTolerances(const MedialComplex &             core,
   const ToleranceLevels levels(std::sqrt(SquaredDistance(scale, { 0, 0, 0 })));
   const LiveElements    left = floor > 0 ? LeftByFloor(core, floor, progress) : LiveElements();
   std::vector<CoreBall> balls = BallsOf(core, std::move(touching.places), scale);
+  TouchedPlaces         touched = TouchedBy(touching, points, scale);
   ToleranceValues       values;
   std::vector<std::pair<ElementIndex, ElementIndex>> edgesOfEnds;
   Stages                                             stages;
@@ -144,7 +166,7 @@ ComputeTolerances(const MedialComplex &             core,
     cells.FaceCount() > 10000,
     [&] {
       const StopAtEnd stop{ stages };
-      fire.emplace(cells, left, levels, balls);
+      fire.emplace(cells, left, levels, touched, balls);
       bool isOut = false; // most levels lie beyond all costs
       for (std::size_t level = 0; level < levels.Count() && !isOut; ++level)
       {
@@ -158,13 +180,16 @@ ComputeTolerances(const MedialComplex &             core,
       }
       stages.FinishAll();
       fire->KeepLevelsOnly();
+      std::vector<WeighedPlace>().swap(touched.places);
+      std::vector<std::uint32_t>().swap(touching.offsets);
+      std::vector<std::uint32_t>().swap(touching.touched);
       if (beside) // loose ends take longer than fire
       {
         beside();
       }
     },
     [&] {
-      LooseEnds ends(cells, left, points, scale, touching.largest, levels, balls);
+      LooseEnds ends(cells, left, points, scale, touching.weights, touching.largest, levels, balls);
       std::vector<ElementIndex>().swap(touching.largest);
       std::size_t done = 0;
       std::size_t end = 0;

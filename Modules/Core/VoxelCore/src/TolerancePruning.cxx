@@ -3,6 +3,7 @@
 #include "voxelcore/Base/LengthText.h"
 #include "voxelcore/Delaunay/CanonicalCells.h"
 #include "voxelcore/VoxelCore/ExtractPart.h"
+#include "voxelcore/VoxelCore/ToleranceWeights.h"
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParallelTasks.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace voxelcore
@@ -72,6 +74,56 @@ SquaredRadii(const DelaunayCells &                      cells,
   return squared;
 }
 
+// All points of a cell are corners of its facets.
+void
+ListTouched(const DelaunayCells & cells, TouchingBalls & balls)
+{
+  std::vector<std::uint32_t> firstFacet(cells.CellCount() + 1, 0);
+  const auto                 forSides = [&](auto use) {
+    for (std::size_t facet = 0; facet < cells.FacetCount(); ++facet)
+    {
+      for (const std::uint32_t cell : cells.facetCells[facet])
+      {
+        if (cell != kOutside)
+        {
+          use(cell, static_cast<std::uint32_t>(facet));
+        }
+      }
+    }
+  };
+  forSides([&](std::uint32_t cell, std::uint32_t) { ++firstFacet[cell + 1]; });
+  std::partial_sum(firstFacet.begin(), firstFacet.end(), firstFacet.begin());
+  std::vector<std::uint32_t> facets(firstFacet.back());
+  forSides([&](std::uint32_t cell, std::uint32_t facet) { facets[firstFacet[cell]++] = facet; });
+  // Each begins now where the next one did.
+  const auto forCells = [&](auto use) {
+    RunInParts(cells.CellCount() > 10000, cells.CellCount(), [&](std::size_t first, std::size_t last) {
+      std::vector<std::uint32_t> corners;
+      for (std::size_t cell = first; cell < last; ++cell)
+      {
+        corners.clear();
+        for (std::uint32_t i = cell == 0 ? 0 : firstFacet[cell - 1]; i < firstFacet[cell]; ++i)
+        {
+          const auto points = cells.FacetPoints(facets[i]);
+          corners.insert(corners.end(), points.begin(), points.end());
+        }
+        std::ranges::sort(corners);
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        use(cell, corners);
+      }
+    });
+  };
+  balls.offsets.assign(cells.CellCount() + 1, 0);
+  forCells([&](std::size_t cell, const std::vector<std::uint32_t> & corners) {
+    balls.offsets[cell + 1] = static_cast<std::uint32_t>(corners.size());
+  });
+  std::partial_sum(balls.offsets.begin(), balls.offsets.end(), balls.offsets.begin());
+  balls.touched.resize(balls.offsets.back());
+  forCells([&](std::size_t cell, const std::vector<std::uint32_t> & corners) {
+    std::ranges::copy(corners, balls.touched.begin() + balls.offsets[cell]);
+  });
+}
+
 } // namespace
 
 Tolerance
@@ -126,13 +178,17 @@ ToleranceInMillimetres(const Tolerance & height, const std::array<double, 3> & s
 }
 
 TouchingBalls
-LargestTouchingBalls(const DelaunayCells &             cells,
+LargestTouchingBalls(const VoxelShape &                shape,
+                     const DelaunayCells &             cells,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights)
 {
   const auto    cellCount = static_cast<std::int64_t>(cells.CellCount());
   TouchingBalls balls{ std::vector<ElementIndex>(points.size(), kOutside),
-                       std::vector<std::array<double, 3>>(cells.CellCount()) };
+                       std::vector<std::array<double, 3>>(cells.CellCount()),
+                       ToleranceWeights(shape, weights, points),
+                       {},
+                       {} };
 #pragma omp parallel for schedule(static) if (cellCount > 10000)
   for (std::int64_t cell = 0; cell < cellCount; ++cell)
   {
@@ -163,6 +219,10 @@ LargestTouchingBalls(const DelaunayCells &             cells,
       std::ranges::for_each(cells.FacetPoints(facet), [&](std::uint32_t point) { offer(larger, point); });
     }
   });
+  if (!balls.weights.empty())
+  {
+    ListTouched(cells, balls);
+  }
   return balls;
 }
 

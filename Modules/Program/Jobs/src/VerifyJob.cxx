@@ -155,10 +155,12 @@ GapText(const LabelVerification & label, SpatialUnit lengths)
   {
     return {};
   }
-  const LengthUnit unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.toleranceMm), lengths);
-  const auto       length = [&unit](double mm) { return ShortText(unit.Of(mm), 4) + " " + unit.Name(); };
-  return "; boundary within " + length(*label.report.boundaryGap) + " of it (tolerance " + label.pruningTolerance +
-         ", " + length(label.toleranceMm) + ")";
+  const LengthUnit  unit = LengthUnit::For(std::max(*label.report.boundaryGap, label.toleranceMm), lengths);
+  const auto        length = [&unit](double mm) { return ShortText(unit.Of(mm), 4) + " " + unit.Name(); };
+  const auto        share = label.report.boundaryGapShare;
+  const std::string ofTolerance = share ? ", " + ShortText(100 * *share, 3) + " % of what is allowed there" : "";
+  return "; boundary within " + length(*label.report.boundaryGap) + " of it" + ofTolerance + " (tolerance " +
+         label.pruningTolerance + ", " + length(label.toleranceMm) + ")";
 }
 
 } // namespace

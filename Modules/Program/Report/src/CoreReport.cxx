@@ -110,6 +110,10 @@ LabelJson(const LabelRecord & label, bool inFile)
     {
       // Whoever prunes a finished file has no boundary to measure it on.
       one["boundary_gap_mm"] = pruned.tolerance->boundaryGapMm ? Json(*pruned.tolerance->boundaryGapMm) : Json(nullptr);
+      if (pruned.tolerance->boundaryGapShare)
+      {
+        one["boundary_gap_share"] = *pruned.tolerance->boundaryGapShare;
+      }
     }
     if (pruned.refined)
     {

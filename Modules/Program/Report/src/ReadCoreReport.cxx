@@ -275,6 +275,10 @@ ParseLabelRecord(const std::string & text)
       {
         label.pruned[i].tolerance->boundaryGapMm = AtLength(pruned, "boundary_gap_mm").get<double>();
       }
+      if (label.pruned[i].tolerance && pruned.contains("boundary_gap_share"))
+      {
+        label.pruned[i].tolerance->boundaryGapShare = pruned.at("boundary_gap_share").get<double>();
+      }
       const char * most = "max_radius_margin_mm";
       if (label.pruned[i].refined && (pruned.contains(most) || pruned.contains(InUnit(most, SpatialUnit::Voxels))))
       {

@@ -74,6 +74,8 @@ fi
 
 scan=scan.mha # which all of them read
 "$program" phantom thick-and-thin --size 32 -o $scan -q
+slices=slices.mha # for what counts in thick slices only
+"$program" phantom thick-and-thin --size 40 --spacing 1,1,4 -o $slices -q
 if [ "$kind" = program ]; then
   "$program" core $scan --tolerance 0 --keep-edges -o whole.vtp -q
   "$program" core $scan --tolerance 0 --refine labels --keep-edges -o refined.vtp -q
@@ -95,6 +97,8 @@ if [ "$kind" = program ]; then
   # Coverage: more is pruned than was asked for, or refinement does not see where it uncovers the boundary.
   refused height 4 "$program" core $scan --refine off -o out.vtp
   refused gap 4 "$program" core $scan -o out.vtp
+  refused direction 4 "$program" core $slices --refine off -o out.vtp
+  refused direction 4 "$program" core $slices -o out.vtp
   # Bounds of thickness. Balls that reach far out of the voxels are refused without bounds, too.
   refused bounds 4 "$program" thickness $scan --refine off --bounds -o out.nrrd
   for fault in bounds lower thick thin; do
@@ -131,6 +135,7 @@ else
   refused moves any "$way" refined $scan out.vtp
   refused height any "$way" exact $scan out.vtp
   refused gap any "$way" refined $scan out.vtp
+  refused direction any "$way" exact $slices out.vtp
   for fault in weights place; do
     for what in whole refined; do
       refused $fault any "$way" $what $scan out.vtp

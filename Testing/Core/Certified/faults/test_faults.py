@@ -39,6 +39,7 @@ FROM_ARRAY = {
     "skeleton": lambda: voxelcore.skeleton(ROD),
     "table": lambda: voxelcore.measure(ROD),
     "usual": lambda: voxelcore.core(thick_and_thin()),
+    "in slices": lambda: voxelcore.core(thick_and_thin()[:, :, ::3], spacing=(1, 1, 3)),
     "thickness": lambda: voxelcore.thickness(ROD, refine="off", bounds=True),
     "usual thickness": lambda: voxelcore.thickness(thick_and_thin(), bounds=True),
 }
@@ -73,6 +74,7 @@ BELOW_AN_ARRAY = [
     ("moves", "usual"),
     ("gap", "usual"),
     ("height", "by tolerance"),
+    ("direction", "in slices"),
     ("bounds", "thickness"),
     ("bounds", "usual thickness"),
     ("lower", "usual thickness"),

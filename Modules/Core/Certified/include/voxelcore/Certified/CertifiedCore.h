@@ -33,6 +33,8 @@ struct ToleranceNumbers
   std::string           height; ///< as asked for
   double                heightMm = 0;
   std::optional<double> boundaryGapMm; ///< of a boundary vertex to the balls that are left, the largest; where measured
+  /** Where voxels are no cubes: the largest of a gap's shares in what is promised there. */
+  std::optional<double> boundaryGapShare{};
 };
 
 /** How far radii may be off as labels tell, in mm: PlacedCore::radiusMargin. */

@@ -91,9 +91,10 @@ KeepToRefine(const Vector3 &             spacing,
 /** Refines the part of the core that a threshold leaves, for each threshold in mm, and then the parts of the input. A
  *  part by lambda is measured again where its vertices have moved to, and pruned once more. Other parts stay as they
  *  are. Of one by tolerance each boundary vertex that lay within the tolerance of its balls lies within it of the
- *  refined ones, or within half a voxel's diagonal where that is more: else a ball that kept it goes back, as far as it
- *  must. The rims of its sheets are smoothed. Hairs and sharp corners of rims are collapsed where each boundary vertex
- *  stays covered without them. A curve goes to where all the boundary about it is equally far.
+ *  refined ones, or within half a voxel's diagonal where that is more, each over its weight (ToleranceWeights.h): else
+ *  a ball that kept it goes back, as far as it must. The rims of its sheets are smoothed. Hairs and sharp corners of
+ *  rims are collapsed where each boundary vertex stays covered without them. A curve goes to where all the boundary
+ *  about it is equally far.
  *  Guarded: every vertex lies in the open shape, none is farther than one voxel (length of the displacement in lattice
  *  coordinates) from where it was, and no triangle's normal has turned by 90 degrees or more against that of the same
  *  triangle in the whole core; no radius differs from the distance of the nearest boundary vertex by more than half a

@@ -40,8 +40,8 @@ struct RefinedVerificationInput
  *  - measures: not greater than how far the surface can lie where the vertex was, and they do not fall from faces to
  *    edges to vertices
  *  - with a tolerance, tolerances: as VerifyComplex
- *  - and coverage, where nothing was pruned by lambda before: no boundary vertex lies farther than RefinedGapBound()
- *    from the nearest ball
+ *  - and coverage, where nothing was pruned by lambda before: no boundary vertex lies farther than RefinedGapBound(),
+ *    weighed, from the nearest ball
  *  - shape Euler number, topology
  *  \throws InputError when shape and weights exceed the exact range; Cancelled when the callback says so. */
 VerificationReport

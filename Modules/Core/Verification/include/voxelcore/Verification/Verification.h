@@ -68,6 +68,8 @@ struct VerificationReport
   TopologyNumbers                complexTopology; ///< by column reduction
   std::vector<VerificationCheck> checks;
   std::optional<double>          boundaryGap; ///< mm; with tolerances: of any boundary vertex to the balls, the largest
+  /** Where voxels are no cubes: the largest of a gap's shares in what is promised there. */
+  std::optional<double> boundaryGapShare;
 };
 
 /** Stored radii and measures may differ from recomputed ones by this relative amount. Both come from exact integers by
@@ -99,8 +101,8 @@ PositionTolerance(const ImageGeometry & geometry);
  *  - pruning: no simple pair with both measures below the threshold is left
  *  With tolerances, instead of the last two, as lambda does not say what is left:
  *  - tolerances: numbers, none below that of the whole, and they do not fall from faces to edges to vertices
- *  - coverage: no boundary vertex lies farther than the height from the ball of a vertex (where a
- *    threshold > 0 took elements first nothing is promised, and this is not checked)
+ *  - coverage: no boundary vertex lies farther than the height, weighed as LargestWeighedGap() does, from the ball of a
+ *    vertex (where a threshold > 0 took elements first nothing is promised, and this is not checked)
  *  - shape Euler number: recounted corner by corner
  *  - topology: shape and complex agree in Euler and Betti numbers
  *  \throws InputError when shape and weights exceed the exact range (72 w^2 N^5 >= 2^127); Cancelled when the callback

@@ -8,13 +8,15 @@
 //
 // The promise. At tolerance h every boundary vertex p lies within h of the ball of a vertex x that is still there:
 // gap(p, x) = |p - x| - R(x) < h. So bumps lower than h are ignored, and what is left rebuilds the boundary to within
-// h. At tolerance 0 all is left.
+// h. At tolerance 0 all is left. Where voxels are no cubes the gap times the weight of p is less than h, which allows
+// less than h where the boundary runs across thinner sides of the voxels (ToleranceWeights.h).
 
 #include "voxelcore/Base/Progress.h"
 #include "voxelcore/Base/SpatialUnit.h"
 #include "voxelcore/Complex/SimplePairCollapse.h"
 #include "voxelcore/Delaunay/DelaunayCells.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
+#include "voxelcore/Shape/VoxelShape.h"
 #include "voxelcore/VoxelCore/MedialComplex.h"
 
 #include <functional>
@@ -63,11 +65,17 @@ struct TouchingBalls
   /** Per cell its centre in lattice steps from the first boundary vertex, each coordinate the exact rational rounded
    *  once: unlike the core's positions the same wherever the volume begins. */
   std::vector<std::array<double, 3>> places;
+
+  // Where voxels are no cubes
+  std::vector<double>        weights{}; ///< ToleranceWeights() of the boundary vertices
+  std::vector<std::uint32_t> offsets{}; ///< cells + 1
+  std::vector<std::uint32_t> touched{}; ///< boundary vertices that each cell's ball touches, ascending
 };
 
-/** To be asked before the cells are moved into BuildVoxelCore(). */
+/** To be asked before the cells are moved into BuildVoxelCore(). All facets are needed, those of the hull too. */
 TouchingBalls
-LargestTouchingBalls(const DelaunayCells &             cells,
+LargestTouchingBalls(const VoxelShape &                shape,
+                     const DelaunayCells &             cells,
                      const std::vector<LatticePoint> & points,
                      const SpacingWeights &            weights);
 
@@ -80,10 +88,11 @@ LargestTouchingBalls(const DelaunayCells &             cells,
  *  run serves every h.
  *
  *  - An edge and its face burn. Fire enters sheets at their rims and is carried by the ball that burnt first there, the
- *    witness; it reaches a vertex when this ball sticks out by h. The face goes when fire has crossed it, or when fires
- *    from two sides have met on it, and with it that of its free edges which lies nearest to where fire set out. So a
- *    sheet shrinks evenly from its rims and does not tear, and the line that is left of a narrow one runs along its
- *    middle.
+ *    witness; it reaches a vertex when this ball sticks out by h. Where voxels are no cubes balls stick out far between
+ *    the boundary vertices of two slices: there it reaches a vertex when a boundary vertex that the ball touches lies h
+ *    (weighed) from the vertex' own ball. The face goes when fire has crossed it, or when fires from two sides have met
+ *    on it, and with it that of its free edges which lies nearest to where fire set out. So a sheet shrinks evenly from
+ *    its rims and does not tear, and the line that is left of a narrow one runs along its middle.
  *  - A vertex at the loose end of an edge goes when each of the boundary vertices it keeps, at first those of which its
  *    ball is the largest, lies within h of another ball that is still there; that one keeps it from then on. Beyond
  *    four voxel diagonals h is an upper bound of that, along the path the end has gone.

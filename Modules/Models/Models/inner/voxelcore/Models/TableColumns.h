@@ -5,8 +5,6 @@
 
 #include "voxelcore/Base/SpatialUnit.h"
 
-#include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,19 +39,18 @@ WriteHead(TextFile & file, const Columns & columns)
   file << "\n";
 }
 
-/** What the columns mean, as a JSON object; those of `further` follow. */
-template <typename Columns, typename Further = std::vector<Column>>
+/** What the columns mean, as a JSON object. */
+template <typename Columns>
 std::string
-ColumnsJson(const Columns & columns, SpatialUnit unit, const Further & further = {})
+ColumnsJson(const Columns & columns, SpatialUnit unit)
 {
   std::string json = "{";
-  const auto  add = [&](const auto & column) {
-    json += (json.size() > 1 ? ",\n    \"" : "\n    \"") + std::string(column.name) + "\": {\"Description\": \"" +
-            column.meaning + "\"" +
-            (column.unit[0] != '\0' ? ", \"Units\": \"" + InUnit(column.unit, unit) + "\"" : "") + "}";
-  };
-  std::for_each(std::begin(columns), std::end(columns), add);
-  std::for_each(std::begin(further), std::end(further), add);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
+            columns[i].meaning + "\"" +
+            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
+  }
   return json + "\n  }";
 }
 
