@@ -31,7 +31,8 @@ ViewOf(const py::array & array)
 {
   if (array.ndim() == 0)
   {
-    RefuseArray("it is none; give one of three dimensions, or an image such as nibabel.load('scan.nii.gz')");
+    RefuseArray(
+      "it is a single value; give an array of three dimensions, or an image such as nibabel.load('scan.nii.gz')");
   }
   if (array.ndim() != 3)
   {

@@ -219,6 +219,21 @@ TEST_F(BadInput, LabelThatDoesNotOccur)
   EXPECT_EQ(m_Folder.Names(), Names{ "a.nrrd" });
 }
 
+TEST_F(BadInput, AThresholdThatNoVoxelLiesInIsNamed)
+{
+  WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  ExpectRefusal(RunProgram({ "core", m_Folder / "a.nrrd", "--threshold", "70:inf", "-o", m_Folder / "out.vtp" }),
+                3,
+                { "a.nrrd", "no voxel lies within the threshold 70:inf" });
+}
+
+TEST_F(BadInput, ASkeletonGivenForAMedialSurfaceIsCalledSo)
+{
+  WriteNrrd(m_Folder / "a.nrrd", ThreeBlocks());
+  ASSERT_EQ(RunProgram({ "skeleton", m_Folder / "a.nrrd", "-o", m_Folder / "s.vtp" }).code, 0);
+  ExpectRefusal(RunProgram({ "verify", m_Folder / "a.nrrd", m_Folder / "s.vtp" }), 3, { "s.vtp", "it is a skeleton" });
+}
+
 class BadUsage : public BadInput
 {
 protected:

@@ -94,7 +94,7 @@ TEST_F(ToleranceCommand, SeveralHeightsShareARunAndGiveWhatEachGivesAlone)
     for (const Json & pruned : label["pruned"])
     {
       EXPECT_LE(pruned["boundary_gap_mm"].get<double>(), pruned["tolerance_mm"].get<double>() + 1e-9);
-      // Voxels are no cubes, so the tolerance differs from place to place; at height 0 there is none to have a share of.
+      // Voxels are no cubes, so the tolerance differs from place to place; height 0 has no shares.
       EXPECT_EQ(pruned.contains("boundary_gap_share"), pruned["tolerance"] != "0");
       EXPECT_LE(pruned.value("boundary_gap_share", 0.0), 1 + 1e-9);
       EXPECT_LE(pruned["faces"].get<std::uint64_t>(), faces);

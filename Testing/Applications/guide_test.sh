@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Every command of voxelcore that README.md and the guide show runs, page by page, on small inputs of the names it uses;
-# every link leads somewhere; every page of the guide stands in the site's table of contents; C++ said to be from an
-# example stands there. What needs a cluster is run by the test in Testing/Cluster.
+# all C++ of the guide is from an example that is built and run, CMake apart. What needs a cluster is run by the test in
+# Testing/Cluster, the tutorial by tutorial_test.py.
 # usage: guide_test.sh PROGRAM SOURCE_DIR
 set -euo pipefail
 
@@ -60,6 +60,7 @@ quoted=0
 check_quotes() {
   local before='' at=0 code=()
   while IFS=$'\t' read -r from line; do
+    [ "$from" != - ] || fail "$1 does not say which example this C++ is from: $line"
     if [ "$from" != "$before" ]; then
       mapfile -t code < <(sed -E 's/^ +//; s/ *(\/\/.*)?$//' "$source/$from")
       before=$from
@@ -68,23 +69,21 @@ check_quotes() {
     while [ "$at" -lt "${#code[@]}" ] && [ "${code[at]}" != "$line" ]; do
       at=$((at + 1))
     done
-    [ "$at" -lt "${#code[@]}" ] || fail "$1 quotes what $from does not have: $line"
+    [ "$at" -lt "${#code[@]}" ] || fail "$1 has C++ that $from does not have: $line"
     at=$((at + 1))
     quoted=$((quoted + 1))
   done < <(awk '
     match($0, /[Ff]rom `Testing\/[^`]*\.cxx`/) { source = substr($0, RSTART + 6, RLENGTH - 7); next }
     source != "" && /^    / { sub(/^ +/, ""); sub(/ *(\/\/.*)?$/, ""); print source "\t" $0; inside = 1; next }
-    source != "" && inside && /^$/ { source = ""; inside = 0 }' "$1")
+    source != "" && inside && /^[^ ]/ { source = ""; inside = 0 }
+    /^    .*[;{}]$/ || /^    #include/ { print "-\t" $0 }' "$1")
 }
 
 count=0
 for page in "$source/README.md" "$guide"/*.md; do
   name=$(basename "$page" .md)
-  [ "$name" = README ] || grep -q ": $name.md\$" "$guide/../mkdocs.yml" || fail "$name.md is not in mkdocs.yml"
-  while IFS= read -r link; do
-    [ -e "$(dirname "$page")/$link" ] || fail "$name.md links to $link, which is not there"
-  done < <(grep -oE '\]\([^)#:]+\)' "$page" | sed 's/^](//; s/)$//')
   check_quotes "$page"
+  [ "$name" != tutorial ] || continue
   # Indented lines, and the second column of tables that map a shape to its command.
   commands=$(sed -nE -e 's/^    ((voxelcore |for k in ).*)$/\1/p' \
     -e 's/^\| [^|`]+ \| `(voxelcore [^`]+ -o [^`]+)` \|$/\1/p' "$page")
@@ -102,4 +101,4 @@ for page in "$source/README.md" "$guide"/*.md; do
   done <<<"$commands"
 done
 [ "$count" -ge 20 ] || fail "only $count commands were found"
-[ "$quoted" -ge 20 ] || fail "only $quoted lines of C++ were found"
+[ "$quoted" -ge 15 ] || fail "only $quoted lines of C++ were found"

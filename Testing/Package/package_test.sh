@@ -63,15 +63,15 @@ case "$how" in
     fi
     parts="Imaging;Models;Jobs;VTK"
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
-    # The guide's lines, as they stand there.
-    {
-      printf '#include "voxelcore/%s.h"\n' Certified/Certified Imaging/LabelVolume Models/MedialModel
-      echo 'int main() {'
-      grep -A7 '^    const voxelcore::LabelMap scan = ' "$source/Applications/manual/guide/cpp.md"
-      echo 'return core.core.cells.FaceCount() > 0 ? 0 : 1; }'
-    } >"$scratch/Readme.cxx"
-    configure "$scratch/all" "${options[@]}" -DPARTS="$parts" -DREADME="$scratch/Readme.cxx"
+    configure "$scratch/all" "${options[@]}" -DPARTS="$parts"
     cmake --build "$scratch/all"
+    # The guide's project, as it stands there.
+    mkdir "$scratch/mine"
+    page=$source/Applications/manual/guide/cpp.md
+    sed -n '/^    cmake_minimum_required/,/^$/s/^    //p' "$page" >"$scratch/mine/CMakeLists.txt"
+    sed -n '/^    #include "voxelcore\/Certified/,/^    }$/s/^    //p' "$page" >"$scratch/mine/mine.cxx"
+    cmake -S "$scratch/mine" -B "$scratch/mine/build" -G Ninja -DCMAKE_PREFIX_PATH="$moved/second"
+    cmake --build "$scratch/mine/build"
     scan_into "$scratch"
     "$scratch/all/UsesFiles" "$scratch/torus.nrrd" "$scratch/files.vtp"
     "$scratch/all/UsesJobs" "$scratch/torus.nrrd" "$scratch/jobs.vtp"
@@ -81,7 +81,7 @@ case "$how" in
     "$scratch/all/UsesPlugin" "$scratch/all/libPlugin.so" "$scratch/torus.nrrd" "$scratch/plugin.vtp"
     cmp "$scratch/plugin.vtp" "$scratch/program.vtp"
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/scan.nii.gz" -q
-    (cd "$scratch" && all/ReadmeExample && [ -s medial.vtp ]) || fail "the guide's example does not work"
+    (cd "$scratch" && mine/build/mine && [ -s medial.vtp ]) || fail "the guide's example does not work"
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/torus.mha" -q
     "$scratch/all/UsesVTK" "$scratch/torus.mha" 2 1 "$scratch/vtk.vtp"
     if [ -x "$scratch/all/UsesITK" ]; then

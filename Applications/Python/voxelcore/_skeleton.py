@@ -29,7 +29,7 @@ class Skeleton(Result):
 
     @property
     def section_radius(self):
-        """(n,) float64: radius of the round tube whose cross-section has the area of the body's at each point, mm."""
+        """(n,) float64: radius of a round tube with the body's cross-section area at each point, mm."""
         return self._data.section_radius
 
     @property

@@ -59,8 +59,17 @@ TEST(ShapeEdits, CavitiesAreFilledBeforeSmallComponentsGo)
   EXPECT_EQ(edited.labels[0].edits->cavitiesFilled, 1U);
   EXPECT_EQ(edited.labels[0].edits->componentsRemoved, 1U);
   EXPECT_EQ(edited.notes,
-            (std::vector<std::string>{ "1 cavity filled with 1 voxel, 0 components in them joined to what is around",
-                                       "1 component removed, with 1 voxel" }));
+            (std::vector<std::string>{ "1 cavity filled with 1 voxel", "1 component removed, with 1 voxel" }));
+}
+
+TEST(ShapeEdits, WhereNothingIsFilledOrRemovedTheNotesSaySoOnce)
+{
+  ShapeEditOptions options;
+  options.fillCavities = true;
+  options.minVoxels = 2;
+  const auto         solid = ShapeWhere({ 5, 5, 5 }, [](int, int, int) { return true; });
+  const EditedLabels edited = EditLabels({ Label(3, solid) }, kGeometry, options, true, "a.nrrd");
+  EXPECT_EQ(edited.notes, (std::vector<std::string>{ "no cavities to fill", "no components to remove" }));
 }
 
 TEST(ShapeEdits, GapsCloseBeforeHollowsSlicesAndCavitiesAreFilled)

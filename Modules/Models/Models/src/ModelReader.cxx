@@ -60,7 +60,8 @@ ReadCells(ModelSource &       file,
                  list.offsets[cell + 1] <= static_cast<std::int64_t>(list.points.size()),
                "the offsets of its cells do not match their points");
     const std::int64_t size = list.offsets[cell + 1] - list.offsets[cell];
-    RequireFit(size >= fewest && size <= most, "a cell is neither a vertex, an edge nor a polygon");
+    RequireFit(size >= fewest && size <= most,
+               "a cell has a number of points that no vertex, edge or polygon of a medial surface has");
   }
   for (const std::int64_t point : list.points)
   {
@@ -293,6 +294,7 @@ ReadKeys(ModelSource & file, std::int64_t cellCount)
 MedialModel
 ReadParts(ModelSource & file, bool anywhere)
 {
+  RequireFit(!file.Has("CellData", "BranchId"), "it is a skeleton");
   const bool inLps = !anywhere || file.Has("FieldData", "SPACE");
   const auto unit = UnitNamed(file.ReadText("FieldData", "Units"));
   RequireFit((!inLps || file.ReadText("FieldData", "SPACE") == "LPS") && unit,

@@ -26,12 +26,14 @@ Shape edits run label by label in this order: --median, --denoise, --mend-shape,
 Components are 6-connected: pieces that touch over edges or corners are joined by --connectivity joined.
 --mend-shape and all that fill or close also remove true holes. Guide: noisy-masks.md
 
-What a tolerance leaves is refined from the labels: moved by up to a voxel to the axis of the smooth shape behind
-them. Topology stays, and the boundary stays within the tolerance. Radius and Lambda are then measured from the
+After pruning by tolerance the result is refined: it moves by up to a voxel, to the axis of the smooth shape behind
+the labels. Topology stays, and the boundary stays within the tolerance. Radius and Lambda are then measured from the
 estimated surface. --refine off keeps the exact core of the voxels, as --lambda alone and --tolerance 0 do.
---refine grey is nearer where grey values are clean, and mesh where a mesh was voxelized; both are asked for, as
-grey values may be noisy and a mesh takes two to four times as long. Blocks are exact; --join refines.
-Guide: refinement.md
+--refine grey is better where grey values are clean; mesh, where a mesh was voxelized, takes two to four times as
+long. Blocks are exact; --join refines. Guide: refinement.md
+
+The printed table has the faces after pruning (faces at H), the greatest distance of the boundary from the remaining
+balls (gap), and the Euler number, pieces, loops and cavities (chi/b0/b1/b2) of the shape and of the core.
 
 With -o DIR/ each label is written as soon as it is done, and the same command goes on where it was stopped. If
 a label fails its certificate, only the other labels are written, and the exit code is 4. --scene and --html
@@ -179,7 +181,7 @@ Noise makes small sheets. One that stands out from its seams by less than --sliv
 continues, and a seam shorter than that is drawn together into one junction.
 
 --voxels gives each voxel the number of the sheet or rod whose ball gives it its thickness. The volumes add up to the
-label's. Guide: thickness.md
+label's. Guide: sheets.md
 
 Examples:
   voxelcore sheets atlas.nii.gz --labels 4 -o sheets.vtp --table sheets.csv --graph sheets.graphml
@@ -235,7 +237,7 @@ constexpr std::string_view kStraightenFooter =
   R"(The result is a straight volume: its third axis is the length along the vessel, and its first two lie across it.
 Planes do not turn about the axis, so a straight feature of the vessel stays straight. The axis runs through their
 middle: it is the skeleton, smoothed over twice its radius to each side. The scan may be grey or labels, on any grid, as
-long as it lies in the same place as the scan of the skeleton. Guide: straightening.md
+long as it lies in the same place as the scan of the skeleton. Guide: vessels.md
 
 --table says where each plane lies. A point (across, up, arc) of the straight volume is place + across * its first
 direction + up * its second one, in LPS mm. --points maps points there or back.

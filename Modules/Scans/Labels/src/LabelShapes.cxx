@@ -1,6 +1,7 @@
 // From the runs of a slab to packed shapes: the second half of LabelCollector.
 
 #include "LabelCollector.h"
+#include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 
 #include <algorithm>
@@ -160,7 +161,10 @@ LabelCollector::TakeShapes()
   const std::string where = m_IsPart ? " within the crop" : "";
   if (m_Threshold && m_Targets.empty() && !m_MayBeMissing)
   {
-    RefuseInput(m_Scan.path, "no voxel" + where + " lies within the threshold", "choose other bounds");
+    const std::string bounds = ShortText(m_Threshold->first) + ":" + ShortText(m_Threshold->second);
+    RefuseInput(m_Scan.path,
+                "no voxel" + where + " lies within the threshold " + bounds,
+                "give other bounds, or the scan that these are of");
   }
   if (present.empty() && !m_Threshold && !m_MayBeMissing)
   {

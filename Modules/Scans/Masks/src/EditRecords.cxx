@@ -119,16 +119,25 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
                     Counted(sum.mended->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.mended->voxelsRemoved) + " removed");
   }
-  const auto filled = [&notes](const std::string & what, const std::optional<EditRecord::Filled> & record) {
+  const auto joined = [](std::uint64_t components, const char * where) {
+    return components > 0 ? ", " + Counted(components, "component", "components") + where + " joined" : std::string();
+  };
+  const auto filled = [&](const std::string & what, const std::string & none, const auto & record) {
     if (record)
     {
-      notes.push_back(what + " with " + Counted(record->voxelsAdded, "voxel", "voxels") + ", " +
-                      Counted(record->componentsJoined, "component", "components") + " joined");
+      notes.push_back(record->voxelsAdded > 0 ? what + " with " + Counted(record->voxelsAdded, "voxel", "voxels") +
+                                                  joined(record->componentsJoined, "")
+                                              : none);
     }
   };
-  filled("gaps up to " + (options.close ? options.close->text : "") + " closed", sum.closed);
-  filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled", sum.hollows);
-  filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled", sum.slices);
+  const std::string gaps = "gaps up to " + (options.close ? options.close->text : "");
+  filled(gaps + " closed", "no " + gaps + " to close", sum.closed);
+  filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled",
+         "no hollows to fill",
+         sum.hollows);
+  filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled",
+         "no holes in slices to fill",
+         sum.slices);
   if (sum.connected && sum.connected->voxelsAdded + sum.connected->voxelsRemoved > 0)
   {
     notes.push_back(
@@ -151,10 +160,11 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
   if (options.fillCavities && !(options.fillUnasked && sum.cavitiesFilled == 0))
   {
     notes.push_back(
-      Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
-      Counted(sum.voxelsAdded, "voxel", "voxels") + ", " + Counted(sum.componentsJoined, "component", "components") +
-      " in them joined to what is around" +
-      (options.fillUnasked ? ", so that curves are left; to keep surfaces around them: --cavities keep" : ""));
+      sum.cavitiesFilled == 0
+        ? std::string("no cavities to fill")
+        : Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
+            Counted(sum.voxelsAdded, "voxel", "voxels") + joined(sum.componentsJoined, " in them") +
+            (options.fillUnasked ? ", so that curves are left; to keep surfaces around them: --cavities keep" : ""));
   }
   if (sum.torn && sum.torn->componentsJoined > 0)
   {
@@ -163,8 +173,9 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
   }
   if (options.minVoxels || options.largest)
   {
-    notes.push_back(Counted(sum.componentsRemoved, "component", "components") + " removed, with " +
-                    Counted(sum.voxelsRemoved, "voxel", "voxels"));
+    notes.push_back(sum.componentsRemoved == 0 ? std::string("no components to remove")
+                                               : Counted(sum.componentsRemoved, "component", "components") +
+                                                   " removed, with " + Counted(sum.voxelsRemoved, "voxel", "voxels"));
   }
   if (sum.smoothed)
   {

@@ -55,15 +55,15 @@ constexpr auto kRootColumns = std::to_array<ValueColumn<RootRow>>({
   { "tortuosity", "1", "length / chord", [](const RootRow & r) { return r.record.tortuosity; } },
   { "mean_diameter",
     "mm",
-    "mean along the root, of the round tube with the area of its cross-section",
+    "mean along the root, of a round tube with its cross-section area",
     [](const RootRow & r) { return r.record.meanDiameter; } },
   { "min_diameter", "mm", "least along it", [](const RootRow & r) { return r.record.minDiameter; } },
   { "max_diameter", "mm", "greatest along it", [](const RootRow & r) { return r.record.maxDiameter; } },
   { "volume", "mm^3", "of the round cones between its points", [](const RootRow & r) { return r.record.volume; } },
-  { "surface", "mm^2", "of their sides", [](const RootRow & r) { return r.record.surface; } },
+  { "surface", "mm^2", "lateral area of these cones", [](const RootRow & r) { return r.record.surface; } },
   { "emergence_angle",
     "deg",
-    "between its parent's direction and its own from one to four diameters behind its base",
+    "between its parent's direction and its own, one to four diameters from its base",
     [](const RootRow & r) { return r.record.emergenceAngle; } },
   { "midpoint_angle",
     "deg",
@@ -103,16 +103,13 @@ constexpr auto kRootColumns = std::to_array<ValueColumn<RootRow>>({
     [](const RootRow & r) { return static_cast<double>(r.record.children); } },
   { "ends_at_contact",
     "",
-    "1: it ends where it touches another root, not at a tip",
+    "1: it ends where it touches another root",
     [](const RootRow & r) { return r.axis.endsAtContact ? 1.0 : 0.0; } },
   { "undecided",
     "",
-    "1: it goes through a contact where another pairing is nearly as good",
+    "1: it passes a contact that could be paired otherwise",
     [](const RootRow & r) { return r.axis.undecided ? 1.0 : 0.0; } },
-  { "loose",
-    "",
-    "1: of a piece that hangs together with no stem",
-    [](const RootRow & r) { return r.axis.loose ? 1.0 : 0.0; } },
+  { "loose", "", "1: its piece has no stem", [](const RootRow & r) { return r.axis.loose ? 1.0 : 0.0; } },
   { "base_x", "mm", "base, LPS", [](const RootRow & r) { return r.record.base[0]; } },
   { "base_y", "mm", "base, LPS", [](const RootRow & r) { return r.record.base[1]; } },
   { "base_z", "mm", "base, LPS", [](const RootRow & r) { return r.record.base[2]; } },
@@ -121,8 +118,8 @@ constexpr auto kRootColumns = std::to_array<ValueColumn<RootRow>>({
   { "tip_z", "mm", "tip, LPS", [](const RootRow & r) { return r.record.tip[2]; } },
 });
 
-constexpr auto kRootNames = std::to_array<ValueColumn<RootRow>>({
-  { "name", "", "given to the root by --edits", nullptr },
+constexpr auto kRootNames = std::to_array<Column>({
+  { "name", "", "given to the root by --edits" },
 });
 
 constexpr auto kLevelColumns = std::to_array<ValueColumn<RootLevelRecord>>({
@@ -160,8 +157,12 @@ constexpr auto kLevelColumns = std::to_array<ValueColumn<RootLevelRecord>>({
   { "surface", "mm^2", "sum over roots", [](const RootLevelRecord & r) { return r.surface; } },
 });
 
-constexpr auto kLevelHead = std::to_array<ValueColumn<RootLevelRecord>>({
-  { "level", "", "0 stems, 1 their laterals, and so on; laterals: all but stems; all", nullptr },
+constexpr auto kLevelHead = std::to_array<Column>({
+  { "level", "", "0 stems, 1 their laterals, and so on; laterals: all but stems; all" },
+});
+
+constexpr auto kPlantHead = std::to_array<Column>({
+  { "scan", "", "name of the scan" },
 });
 
 /** The plant with what only the voxels know. */
@@ -215,11 +216,11 @@ constexpr auto kPlantColumns = std::to_array<ValueColumn<PlantRow>>({
     [](const PlantRow & r) { return static_cast<double>(r.traits.contacts); } },
   { "undecided_contacts",
     "",
-    "those where another pairing of the roots is nearly as good",
+    "contacts that could be paired otherwise",
     [](const PlantRow & r) { return static_cast<double>(r.traits.undecidedContacts); } },
   { "soil_depth",
     "mm",
-    "of the soil plane below the base of the first stem, as given",
+    "of the soil below the base of the first stem, as given",
     [](const PlantRow & r) { return r.traits.soilDepth.value_or(kNone); } },
   { "roots_above_soil",
     "",
@@ -320,7 +321,7 @@ void
 WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume)
 {
   TextFile file(path, tableDigits);
-  file << "scan,";
+  file << kPlantHead[0].name << ",";
   WriteHead(file, kPlantColumns);
   file << CsvField(model.name) << ",";
   WriteRow(file, kPlantColumns, PlantRow{ model.traits, volume });
@@ -365,15 +366,9 @@ WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model)
 std::string
 RootColumnsJson(SpatialUnit unit)
 {
-  std::string levels = ColumnsJson(kLevelHead, unit);
-  levels.replace(levels.rfind("\n  }"), std::string::npos, ",");
-  levels += ColumnsJson(kLevelColumns, unit).substr(1);
-  std::string roots = ColumnsJson(kRootColumns, unit);
-  roots.replace(roots.rfind("\n  }"), std::string::npos, ",");
-  roots += ColumnsJson(kRootNames, unit).substr(1);
-  return TablesJson({ { "roots", roots },
-                      { "levels", levels },
-                      { "plant", ColumnsJson(kPlantColumns, unit) },
+  return TablesJson({ { "roots", ColumnsJson(kRootColumns, unit, kRootNames) },
+                      { "levels", ColumnsJson(kLevelHead, unit, kLevelColumns) },
+                      { "plant", ColumnsJson(kPlantHead, unit, kPlantColumns) },
                       { "profile", ColumnsJson(kProfileColumns, unit) } });
 }
 

@@ -28,7 +28,7 @@ constexpr auto kPlaneColumns = std::to_array<Column>({
   { "along_y", "1", "" },
   { "along_z", "1", "" },
   { "radius", "mm", "of the skeleton there" },
-  { "bend_radius", "mm", "of the axis: farther to the inner side than this, planes cross; empty where it is straight" },
+  { "bend_radius", "mm", "of the axis; planes cross farther in than this; empty where it is straight" },
   kBranchIdColumn,
 });
 
@@ -36,10 +36,10 @@ constexpr auto kPointColumns = std::to_array<Column>({
   { "x", "mm", "place in the scan, LPS" },
   { "y", "mm", "" },
   { "z", "mm", "" },
-  { "across", "mm", "place in the straight volume; empty where no plane holds the point" },
-  { "up", "mm", "" },
-  { "arc_length", "mm", "" },
-  { "in_volume", "", "1 when it lies in the straight volume" },
+  { "across", "mm", "first coordinate in the straight volume; empty: no plane holds the point" },
+  { "up", "mm", "second coordinate" },
+  { "arc_length", "mm", "third coordinate" },
+  { "in_volume", "", "1: it lies in the straight volume" },
 });
 
 } // namespace

@@ -71,8 +71,8 @@ inline constexpr auto kPruningRows = std::to_array<Parameter>({
     "1.2diag",
     false,
     kThickness,
-    "What lies within H of the balls beneath it is noise and takes their thickness: 1.2diag (voxel diagonals), 2vox, "
-    "1.5mm" },
+    "Prune the medial surface beside the map so that the boundary stays within H of the remaining balls: 1.2diag "
+    "(voxel diagonals), 2vox, 1.5mm; the map does not depend on it" },
   { "tolerance",
     "--tolerance",
     Text,

@@ -65,9 +65,8 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots | kBatch,
-    "Do not clean the mask; without this it is mended, hollow roots (--fill-hollows, by a width found) and cavities "
-    "are "
-    "filled, and the largest piece is kept" },
+    "Do not clean the mask; by default it is mended, hollow roots and cavities are filled, and the largest piece is "
+    "kept" },
   { "keep-loops",
     "--keep-loops",
     Flag,
@@ -75,7 +74,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots | kBatch,
-    "Leave the mask joined where roots touch; without this it is cut there, so that there are no loops, or --loops N" },
+    "Do not cut the mask where roots touch; by default it is cut there, so that no loops are left, or --loops N" },
   { "kernel",
     "--kernel",
     Real,
@@ -83,7 +82,7 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots | kBatch,
-    "Never cut voxels of a grey scan with this value or more; without this bright voxels are cut last" },
+    "In a grey scan, cut no voxel with this value or more; by default bright voxels are cut last" },
   { "neighborhood",
     "--neighborhood",
     Real,
@@ -91,8 +90,9 @@ inline constexpr auto kRootRows = std::to_array<Parameter>({
     "",
     false,
     kRoots | kBatch,
-    "Never fill voxels of a grey scan with less than this value; without this a level is proposed by how pieces, loops "
-    "and cavities change with it" },
+    "In a grey scan, fill no voxel below this value; by default it is chosen from how pieces, loops and cavities "
+    "change "
+    "with the level" },
   { "no-pictures", "--no-pictures", Flag, "", "", false, kRoots, "Leave out roots.png and roots.html" },
   { "prefix", "--prefix", Text, "TEXT", "", false, kRoots, "Begin the names of all files in OUTDIR with this" },
 });

@@ -5,6 +5,8 @@
 
 #include "voxelcore/Base/SpatialUnit.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,18 +41,19 @@ WriteHead(TextFile & file, const Columns & columns)
   file << "\n";
 }
 
-/** What the columns mean, as a JSON object. */
-template <typename Columns>
+/** What the columns mean, as a JSON object; those of `further` follow. */
+template <typename Columns, typename Further = std::vector<Column>>
 std::string
-ColumnsJson(const Columns & columns, SpatialUnit unit)
+ColumnsJson(const Columns & columns, SpatialUnit unit, const Further & further = {})
 {
   std::string json = "{";
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    json += (i > 0 ? ",\n    \"" : "\n    \"") + std::string(columns[i].name) + "\": {\"Description\": \"" +
-            columns[i].meaning + "\"" +
-            (columns[i].unit[0] != '\0' ? ", \"Units\": \"" + InUnit(columns[i].unit, unit) + "\"" : "") + "}";
-  }
+  const auto  add = [&](const auto & column) {
+    json += (json.size() > 1 ? ",\n    \"" : "\n    \"") + std::string(column.name) + "\": {\"Description\": \"" +
+            column.meaning + "\"" +
+            (column.unit[0] != '\0' ? ", \"Units\": \"" + InUnit(column.unit, unit) + "\"" : "") + "}";
+  };
+  std::for_each(std::begin(columns), std::end(columns), add);
+  std::for_each(std::begin(further), std::end(further), add);
   return json + "\n  }";
 }
 
