@@ -165,7 +165,8 @@ StateOf(const CoreReport & report)
                         label.covered,
                         gap,
                         margin,
-                        share);
+                        share,
+                        label.standOut);
 }
 
 CoreReport
@@ -177,6 +178,7 @@ ReportFrom(const py::tuple & state)
   report.parameters.engine = state[2].cast<std::string>();
   report.parameters.threads = state[3].cast<int>();
   label.covered = state[4].cast<std::optional<bool>>();
+  label.standOut = state[8].cast<std::optional<bool>>();
   if (label.pruned.at(0).tolerance)
   {
     label.pruned.front().tolerance->boundaryGapMm = state[5].cast<std::optional<double>>();

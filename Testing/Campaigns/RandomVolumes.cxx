@@ -209,9 +209,12 @@ TryCertified(const RandomVolume & volume)
   CertifiedRequest request;
   request.crossCheck = HasEngine(Engine::TetGen);
   request.skeleton.emplace();
+  request.skeleton->standOut = ParseLambda("3vox");
+  request.skeleton->smooth = ParseLambda("6vox");
   request.thickness.emplace();
   const CertifiedResult result = ComputeCertified(volume.shape, geometry, request);
-  return result.cores.empty() || !result.skeleton || !result.thickness ? "something is missing" : "";
+  return result.cores.empty() || !result.skeleton || !result.standOut || !result.thickness ? "something is missing"
+                                                                                           : "";
 }
 
 } // namespace

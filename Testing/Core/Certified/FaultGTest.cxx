@@ -101,6 +101,43 @@ TEST(SeededFaults, AreRefusedAtEveryStage)
   unsetenv("VOXELCORE_SEEDED_FAULT");
 }
 
+/** A bar with an arm that is longer than the bar is wide. */
+VoxelShape
+BarWithAnArm()
+{
+  VoxelShape shape(VoxelBox{ { 0, 0, 0 }, { 40, 6, 26 } });
+  for (std::int32_t k = 0; k < 26; ++k)
+  {
+    for (std::int32_t j = 0; j < 6; ++j)
+    {
+      for (std::int32_t i = 0; i < 40; ++i)
+      {
+        if (k < 6 || (i >= 17 && i < 23))
+        {
+          shape.Insert(i, j, k);
+        }
+      }
+    }
+  }
+  return shape;
+}
+
+TEST(SeededFaults, InTheChoiceOfBranchesAreRefused)
+{
+  ImageGeometry geometry;
+  geometry.size = { 40, 6, 26 };
+  CertifiedRequest request;
+  request.lambdas = { ParseLambda("0") };
+  request.skeleton.emplace();
+  request.skeleton->standOut = ParseLambda("3vox");
+  request.skeleton->smooth = ParseLambda("6vox");
+  unsetenv("VOXELCORE_SEEDED_FAULT");
+  EXPECT_EQ(ComputeCertified(BarWithAnArm(), geometry, request).standOut, true);
+  setenv("VOXELCORE_SEEDED_FAULT", "branches", 1);
+  EXPECT_THROW(ComputeCertified(BarWithAnArm(), geometry, request), CertificateError);
+  unsetenv("VOXELCORE_SEEDED_FAULT");
+}
+
 TEST(SeededFaults, AreRefusedWhereACoreIsPrunedOnRefinedOrNot)
 {
   ImageGeometry geometry;

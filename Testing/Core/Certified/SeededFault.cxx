@@ -334,7 +334,9 @@ FaultyCurves(const MedialComplex &    surface,
              const CurveOptions &     options,
              const ProgressCallback & progress)
 {
-  CurveSkeleton skeleton = TrueCurves(surface, part, options, progress);
+  CurveOptions chosen = options;
+  chosen.branchThreshold *= IsSeeded("branches") ? 10 : 1;
+  CurveSkeleton skeleton = TrueCurves(surface, part, chosen, progress);
   if (IsSeeded("skeleton"))
   {
     Damage(skeleton.complex);

@@ -297,9 +297,9 @@ TEST(BranchesByThreshold, TheShortEndOfAThickerTubeBehindAFork)
 }
 
 /** How many branches stand out of a stem of radius 5 and a short side of it, whose radius goes evenly from one to the
- *  other. Lengths in voxels. */
+ *  other; in a fork with an arm of the stem's radius, whose balls hold the side's to 3. Lengths in voxels. */
 std::size_t
-BranchesBesideAStem(double radiusAtEnd, double radiusAtStem)
+BranchesBesideAStem(double radiusAtEnd, double radiusAtStem, bool inFork)
 {
   constexpr ElementIndex half = 40;
   constexpr ElementIndex side = 7;
@@ -324,6 +324,10 @@ BranchesBesideAStem(double radiusAtEnd, double radiusAtStem)
         radiusAtStem + t * (radiusAtEnd - radiusAtStem),
         i == 1 ? half : 2 * half + i - 1);
   }
+  for (ElementIndex i = 1; inFork && i <= half; ++i)
+  {
+    add({ half, 0.9 * i, std::sqrt(1 - 0.81) * i }, 5, i == 1 ? half : 2 * half + side + i - 1);
+  }
   curve.cells.vertexCount = static_cast<ElementIndex>(curve.positions.size());
   const LiveElements live{ std::vector<std::uint8_t>(curve.positions.size(), 1),
                            std::vector<std::uint8_t>(curve.cells.edges.size(), 1),
@@ -334,9 +338,15 @@ BranchesBesideAStem(double radiusAtEnd, double radiusAtStem)
 
 TEST(BranchesByThreshold, OfShortOnesNoneIsWiderAtItsEndThanWhereItLeaves)
 {
-  EXPECT_EQ(BranchesBesideAStem(4, 4), 3U);
-  EXPECT_EQ(BranchesBesideAStem(4, 4.5), 3U);
-  EXPECT_EQ(BranchesBesideAStem(4.8, 3.6), 2U);
+  EXPECT_EQ(BranchesBesideAStem(4, 4, true), 4U);
+  EXPECT_EQ(BranchesBesideAStem(4, 4.5, true), 4U);
+  EXPECT_EQ(BranchesBesideAStem(4.8, 3.6, true), 3U);
+}
+
+TEST(BranchesByThreshold, WhatNoOtherHoldsHasABranchThatMayBeWiderAtItsEnd)
+{
+  EXPECT_EQ(BranchesBesideAStem(4, 4, false), 3U);
+  EXPECT_EQ(BranchesBesideAStem(4.8, 3.6, false), 3U);
 }
 
 } // namespace

@@ -21,15 +21,15 @@ TubeAnd(const Spacing3 & centre, double radius)
   return UnionOfLabels({ { 1, "tube", 0, Tube(axis, 4, kSides) }, { 2, "ball", 0, Tube({ centre }, radius, kSides) } });
 }
 
-/** A line through places, a point every mm, with the radii of balls in a shape. */
+/** A line through places, a point every mm but on the way to place `bare`, with the radii of balls in a shape. */
 SkeletonGraph
-LineThrough(const Curve & places, const OpenShape & inside)
+LineThrough(const Curve & places, const OpenShape & inside, std::size_t bare = 0)
 {
   SkeletonGraph             graph;
   std::vector<ElementIndex> line;
   for (std::size_t i = 1; i < places.size(); ++i)
   {
-    const auto steps = static_cast<int>(Distance(places[i - 1], places[i]));
+    const auto steps = i == bare ? 1 : static_cast<int>(Distance(places[i - 1], places[i]));
     for (int k = i == 1 ? 0 : 1; k <= steps; ++k)
     {
       line.push_back(static_cast<ElementIndex>(graph.positions.size()));
@@ -76,6 +76,21 @@ TEST(DomeBranches, AWayIntoADomeAndBackBecomesOneBranch)
     {
       EXPECT_TRUE(inside.HoldsSegment(graph.positions[points[i - 1]], graph.positions[points[i]]));
     }
+  }
+}
+
+TEST(DomeBranches, AWayBackWithoutPointsIsFoundToo)
+{
+  const Spacing3   centre{ 35, 31.5, 20 };
+  const VoxelShape shape = TubeAnd(centre, 9);
+  const auto       geometry = GridFromOrigin({ 1, 1, 1 });
+  const OpenShape  inside(shape, geometry);
+  for (const std::size_t bare : { 2U, 3U })
+  {
+    SkeletonGraph graph =
+      LineThrough({ { 8, 20, 20 }, { 33, 20, 20 }, centre, { 37, 20, 20 }, { 62, 20, 20 } }, inside, bare);
+    EXPECT_EQ(BranchIntoDomes(graph, inside, 2), 1U) << bare;
+    EXPECT_EQ(graph.BranchCount(), 3U) << bare;
   }
 }
 

@@ -88,7 +88,7 @@ TEST_F(SkeletonJob, ScanItsWholeCoreAndTheCoreCommandGiveTheSameBytes)
   }
   EXPECT_TRUE(std::filesystem::exists(At("b_lambda-1.5vox.vtp")));
   const Json certificate = Labels(At("b.json")).at(0).at("certificate");
-  EXPECT_EQ(certificate.dump(), R"({"topology":true,"enclosed":true,"skeleton":true,"passed":true})");
+  EXPECT_EQ(certificate.dump(), R"({"topology":true,"enclosed":true,"skeleton":true,"stand_out":true,"passed":true})");
   EXPECT_EQ(both.report.labels.at(0).skeleton->output, At("b_skeleton.vtp").string());
   // A core file says nothing of skeletons that were made beside it.
   EXPECT_EQ(ReadModel(At("b_lambda-0.vtp")).provenance.find("skeleton"), std::string::npos);

@@ -18,6 +18,7 @@
 #include "voxelcore/Skeleton/DomeBranches.h"
 #include "voxelcore/Skeleton/OpenShape.h"
 #include "voxelcore/Verification/Enclosure.h"
+#include "voxelcore/Verification/StandOutCheck.h"
 #include "voxelcore/VoxelCore/BallUnion.h"
 
 #include <algorithm>
@@ -320,6 +321,32 @@ MeasureCurves(const BurnedCurves &    burned,
   Cut(result, request.branches, StandOutOn(shape, request));
   TakeInside(graph, points, inside);
   return result;
+}
+
+void
+RequireNothingStandsOut(const CurveSkeleton &   curves,
+                        const VoxelShape &      voxels,
+                        const CertifiedShape &  shape,
+                        const SkeletonRequest & request)
+{
+  std::vector<Vector3> places = curves.complex.positions;
+  std::vector<double>  reach = curves.complex.radius;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    places[i] = PhysicalToLattice(shape.geometry, places[i]);
+    // Of closed surfaces, which never burn, all faces stay.
+    reach[i] += std::isfinite(curves.erosionThickness[i]) ? curves.erosionThickness[i] : 0;
+  }
+  const auto outside =
+    BallStandingOut(voxels, ComputeSpacingWeights(shape.geometry.spacing), places, reach, StandOutOn(shape, request));
+  if (outside)
+  {
+    RefuseResult(shape.name,
+                 "what stands out of its skeleton by " + std::to_string(outside->beyond) +
+                   InUnit(" mm", shape.geometry.unit) + " has no branch, at voxel " +
+                   std::to_string(outside->voxel[0]) + "," + std::to_string(outside->voxel[1]) + "," +
+                   std::to_string(outside->voxel[2]) + " of its box");
+  }
 }
 
 void

@@ -354,6 +354,11 @@ private:
     {
       RefuseResult(m_Request.name, "its core was not counted");
     }
+    if (BurnsWhole(m_Request) && m_Request.skeleton->standOut.value > 0)
+    {
+      RequireNothingStandsOut(m_Curves->curves, m_Voxels, m_Result.shape, *m_Request.skeleton);
+      m_Result.standOut = true;
+    }
     m_Result.seconds.skeleton += watch.Lap();
   }
 

@@ -54,6 +54,14 @@ MeasureCurves(const BurnedCurves &    burned,
               const SkeletonRequest & request,
               const BeyondBorder *    goesOn = nullptr);
 
+/** Of curves of the whole core, as fire and the request's standOut leave them: \throws CertificateError where a ball in
+ *  the shape stands out of them all (BallStandingOut()). */
+void
+RequireNothingStandsOut(const CurveSkeleton &   curves,
+                        const VoxelShape &      voxels,
+                        const CertifiedShape &  shape,
+                        const SkeletonRequest & request);
+
 /** \throws CertificateError unless every point of a skeleton lies in its shape. */
 void
 RequireEnclosed(const SkeletonGraph & graph, const VoxelShape & voxels, const CertifiedShape & shape);

@@ -1,12 +1,15 @@
 #include "CurveBranches.h"
 
 #include "EndSearch.h"
+#include "StandingOut.h"
 
 #include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <utility>
 
 namespace voxelcore
@@ -72,6 +75,47 @@ FindBranches(const CellComplex & cells, const CurveFire & fire, std::vector<Elem
   return all;
 }
 
+/** The way into a corner of 60 degrees or more is no part of a branch: it ends where the ball that holds its end lies,
+ *  out of which that reaches by less than thin tubes must. */
+void
+EndBeforeCorner(const MedialComplex & surface, double standOut, CurveBranch & branch)
+{
+  const auto   at = [&](std::size_t i) -> const Vector3 & { return surface.positions[branch.path[i]]; };
+  const auto   radius = [&](std::size_t i) { return surface.radius[branch.path[i]]; };
+  const double end = radius(branch.end);
+  std::size_t  greatest = branch.end;
+  for (std::size_t i = branch.end + 1; i < branch.path.size(); ++i)
+  {
+    const double way = Distance(at(branch.end), at(i));
+    if (radius(i) > radius(greatest) && way + 2 * (end - radius(i)) <= 0 &&
+        way + end - radius(i) <= kTubeStandOut * standOut)
+    {
+      greatest = i;
+    }
+  }
+  if (greatest != branch.end)
+  {
+    branch.end = greatest;
+    branch.part = 0;
+  }
+}
+
+/** From the tip on to where it lost or fire ended. */
+std::vector<ElementIndex>
+PathOf(ElementIndex                      number,
+       const std::vector<Candidate> &    all,
+       const CellComplex &               cells,
+       const CurveFire &                 fire,
+       const std::vector<ElementIndex> & branchOf)
+{
+  std::vector<ElementIndex> path{ all[number].tip };
+  while (fire.nextEdge[path.back()] != kNoEdge && branchOf[path.back()] == number)
+  {
+    path.push_back(Across(cells, fire.nextEdge[path.back()], path.back()));
+  }
+  return path;
+}
+
 } // namespace
 
 std::vector<CurveBranch>
@@ -81,10 +125,9 @@ StandingBranches(const MedialComplex &       surface,
                  const BranchScale &         scale,
                  double                      standOut)
 {
-  std::vector<ElementIndex> branchOf;
-  std::vector<Candidate>    all = FindBranches(surface.cells, fire, branchOf);
-  std::vector<CurveBranch>  branches;
-  std::vector<ElementIndex> numbers; // of these
+  std::vector<ElementIndex>           branchOf;
+  std::vector<Candidate>              all = FindBranches(surface.cells, fire, branchOf);
+  std::map<ElementIndex, CurveBranch> branches; // by number
   for (ElementIndex number = 0; number < all.size(); ++number)
   {
     Candidate & candidate = all[number];
@@ -92,12 +135,8 @@ StandingBranches(const MedialComplex &       surface,
     {
       continue;
     }
-    CurveBranch branch;
-    branch.path.push_back(candidate.tip);
-    while (fire.nextEdge[branch.path.back()] != kNoEdge && branchOf[branch.path.back()] == number)
-    {
-      branch.path.push_back(Across(surface.cells, fire.nextEdge[branch.path.back()], branch.path.back()));
-    }
+    CurveBranch & branch = branches[number];
+    branch.path = PathOf(number, all, surface.cells, fire, branchOf);
     EndSearch  search(surface, fire, surfaceTime, scale, branch);
     const bool standsOut = candidate.standOut >= standOut;
     const auto standsOutOfAll = [&](const Vector3 & place, double radius, double least) {
@@ -114,11 +153,13 @@ StandingBranches(const MedialComplex &       surface,
       branch.end = branch.path.size() - 1;
       branch.part = 0;
     }
+    else
+    {
+      EndBeforeCorner(surface, standOut, branch);
+    }
     candidate.isStanding = isFound || (standsOut && candidate.isAxis);
-    branches.push_back(std::move(branch));
-    numbers.push_back(number);
   }
-  for (const ElementIndex number : numbers)
+  for (const auto & [number, branch] : branches)
   {
     if (all[number].isStanding)
     {
@@ -128,13 +169,49 @@ StandingBranches(const MedialComplex &       surface,
       }
     }
   }
-  std::vector<CurveBranch> standing;
-  for (std::size_t i = 0; i < branches.size(); ++i)
+  std::erase_if(branches, [&](const auto & one) { return !all[one.first].isStanding; });
+
+  // What of the core stands out of these has a branch, too, up to the ball that does so most.
+  std::vector<std::uint8_t> stays(surface.cells.vertexCount, 1);
+  for (const ElementIndex vertex : fire.order)
   {
-    if (all[numbers[i]].isStanding)
+    stays[vertex] = 0;
+  }
+  for (const auto & [number, branch] : branches)
+  {
+    for (std::size_t at = branch.end + (branch.part > 0 ? 1 : 0); at < branch.path.size(); ++at)
     {
-      standing.push_back(std::move(branches[i]));
+      stays[branch.path[at]] = 1;
     }
+  }
+  StandingOut out(surface, fire, surfaceTime, stays, scale, standOut);
+  while (const auto ball = out.Worst())
+  {
+    std::vector<ElementIndex> places;
+    ElementIndex              from = *ball;
+    for (ElementIndex number = branchOf[from]; number != kNoEdge; number = all[number].parent)
+    {
+      CurveBranch & branch = branches[number];
+      if (branch.path.empty())
+      {
+        branch.path = PathOf(number, all, surface.cells, fire, branchOf);
+        branch.end = branch.path.size() - 1;
+      }
+      const auto at = std::ranges::find(branch.path, from);
+      places.insert(places.end(), at, branch.path.end());
+      if (from == *ball)
+      {
+        branch.end = static_cast<std::size_t>(at - branch.path.begin());
+        branch.part = 0;
+      }
+      from = branch.path.back();
+    }
+    out.Add(places);
+  }
+  std::vector<CurveBranch> standing;
+  for (auto & [number, branch] : branches)
+  {
+    standing.push_back(std::move(branch));
   }
   return standing;
 }

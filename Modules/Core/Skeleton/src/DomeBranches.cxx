@@ -24,15 +24,35 @@ BeyondVoxels(const OpenShape & inside, const Vector3 & middle, double radius, do
   return radius - inside.DistanceToBoundary(middle, 0, most);
 }
 
+// Where balls grow by less than this of the way, it is the grid's doing: the middle of a dome.
+constexpr double kGrowth = 0.1;
+
+struct BallOnLine
+{
+  Vector3 middle{};
+  double  radius = 0; ///< mm
+};
+
 /** Of a line of points: its greatest ball, and where the ways there meet. */
 struct Dome
 {
   std::size_t before = 0;
   std::size_t greatest = 0;
   std::size_t behind = 0;
-  Vector3     foot{};
-  double      footRadius = 0; ///< mm
+  BallOnLine  foot;
+  BallOnLine  ball; ///< the greatest to which balls grow from the line's on
 };
+
+void
+PutAt(SkeletonGraph & graph, ElementIndex point, const BallOnLine & ball)
+{
+  graph.positions[point] = ball.middle;
+  graph.radius[point] = ball.radius;
+  if (!graph.medial.empty())
+  {
+    graph.medial[point] = ball.middle;
+  }
+}
 
 class DomeSearch
 {
@@ -57,7 +77,8 @@ public:
     {
       if (IsGreatest(line, way, i))
       {
-        if (const auto dome = At(line, way, i))
+        const auto dome = At(line, way, i);
+        if (dome && IsGreatestAround(line[i]))
         {
           domes.push_back(*dome);
         }
@@ -93,6 +114,16 @@ private:
     return m_Graph.radius[line[at]];
   }
 
+  /** At a way along the line, which lies between a point and the next. */
+  BallOnLine
+  BallAt(const std::vector<ElementIndex> & line, const std::vector<double> & way, std::size_t point, double at) const
+  {
+    const double length = way[point + 1] - way[point];
+    const double part = length > 0 ? (at - way[point]) / length : 0;
+    return { AddScaled(Place(line, point), part, Minus(Place(line, point + 1), Place(line, point))),
+             Radius(line, point) + part * (Radius(line, point + 1) - Radius(line, point)) };
+  }
+
   /** Of the balls whose centres lie in it; the first of equals. */
   bool
   IsGreatest(const std::vector<ElementIndex> & line, const std::vector<double> & way, std::size_t at) const
@@ -115,45 +146,114 @@ private:
     return true;
   }
 
+  /** The greatest ball to which balls grow from one on whose middle lies in it. In a dome's neck the medial surface may
+   *  end before the dome's middle. Radii are greater by `beyond` than those in the voxels. */
+  BallOnLine
+  Grown(const BallOnLine & from, double beyond) const
+  {
+    const double voxel = m_Inside.VoxelDiagonal();
+    BallOnLine   ball = from;
+    for (double step = voxel / 2; step > voxel / 16;)
+    {
+      BallOnLine next = ball;
+      for (int i = 0; i < 27; ++i)
+      {
+        const Vector3 direction{ i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0 };
+        const double  length = Length(direction);
+        const Vector3 middle = AddScaled(ball.middle, length > 0 ? step / length : 0, direction);
+        if (length <= 0 || Distance(middle, from.middle) > from.radius || !m_Inside.HoldsSegment(ball.middle, middle))
+        {
+          continue;
+        }
+        const double inVoxels = ball.radius - beyond;
+        const double radius =
+          m_Inside.DistanceToBoundary(middle, std::max(0.0, inVoxels - step), inVoxels + step) + beyond;
+        if (radius > next.radius && radius >= ball.radius + kGrowth * step)
+        {
+          next = { middle, radius };
+        }
+      }
+      if (next.radius > ball.radius)
+      {
+        ball = next;
+      }
+      else
+      {
+        step /= 2;
+      }
+    }
+    return ball;
+  }
+
+  /** Of all balls of the graph within kDomeGoesOn radii. */
+  bool
+  IsGreatestAround(ElementIndex point) const
+  {
+    const double radius = m_Graph.radius[point];
+    for (ElementIndex other = 0; other < m_Graph.positions.size(); ++other)
+    {
+      if (m_Graph.radius[other] > radius &&
+          Distance(m_Graph.positions[other], m_Graph.positions[point]) <= kDomeGoesOn * radius)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
   std::optional<Dome>
   At(const std::vector<ElementIndex> & line, const std::vector<double> & way, std::size_t greatest) const
   {
-    Dome dome{ greatest, greatest, greatest };
-    // Step by step as far from it on both sides.
+    // To places as far from it on both sides, step by step from point to point of either. Where points are few, that
+    // is between them.
+    Dome       dome{ greatest, greatest, greatest, {}, {} };
+    BallOnLine before{ Place(line, greatest), Radius(line, greatest) };
+    BallOnLine behind = before;
+    double     reached = 0;
     while (dome.before > 0 && dome.behind + 1 < line.size())
     {
-      Dome next = dome;
-      way[greatest] - way[dome.before - 1] < way[dome.behind + 1] - way[greatest] ? --next.before : ++next.behind;
-      if (Distance(Place(line, next.before), Place(line, next.behind)) >
-          std::min(Radius(line, next.before), Radius(line, next.behind)))
+      const double     toBefore = way[greatest] - way[dome.before - 1];
+      const double     toBehind = way[dome.behind + 1] - way[greatest];
+      const double     next = std::min(toBefore, toBehind);
+      const BallOnLine nextBefore = BallAt(line, way, dome.before - 1, way[greatest] - next);
+      const BallOnLine nextBehind = BallAt(line, way, dome.behind, way[greatest] + next);
+      if (Distance(nextBefore.middle, nextBehind.middle) > std::min(nextBefore.radius, nextBehind.radius))
       {
         break;
       }
-      dome = next;
+      before = nextBefore;
+      behind = nextBehind;
+      reached = next;
+      dome.before -= toBefore <= next ? 1 : 0;
+      dome.behind += toBehind <= next ? 1 : 0;
     }
-    if (dome.before == greatest || dome.behind == greatest)
+    if (reached <= 0)
     {
       return std::nullopt;
     }
-    const Vector3 & before = Place(line, dome.before);
-    const Vector3 & behind = Place(line, dome.behind);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      dome.foot[axis] = 0.5 * (before[axis] + behind[axis]);
-    }
-    const double radius = Radius(line, greatest);
-    const double wayIn = Distance(dome.foot, Place(line, greatest));
-    const double least = std::max(m_StandOut, kDomeOfRadius * radius);
-    if (wayIn + radius < least || !m_Inside.Holds(dome.foot) || !m_Inside.HoldsSegment(dome.foot, before) ||
-        !m_Inside.HoldsSegment(dome.foot, behind) || !m_Inside.HoldsSegment(dome.foot, Place(line, dome.before + 1)))
+    // What of the line lies farther stays.
+    dome.before -= way[greatest] - way[dome.before] < reached ? 1 : 0;
+    dome.behind += way[dome.behind] - way[greatest] < reached ? 1 : 0;
+    const Vector3 & last = Place(line, dome.before);
+    dome.foot.middle = AddScaled(before.middle, 0.5, Minus(behind.middle, before.middle));
+    dome.ball = { Place(line, greatest), Radius(line, greatest) };
+    if (!m_Inside.Holds(dome.foot.middle) || !m_Inside.HoldsSegment(dome.foot.middle, last) ||
+        !m_Inside.HoldsSegment(dome.foot.middle, Place(line, dome.behind)) ||
+        !m_Inside.HoldsSegment(dome.foot.middle, Place(line, dome.before + 1)))
     {
       return std::nullopt;
     }
-    const double most = radius + wayIn;
     const double ball = Radius(line, dome.before);
-    const double beyond = BeyondVoxels(m_Inside, before, ball, ball + most);
-    dome.footRadius = std::max(0.0, m_Inside.DistanceToBoundary(dome.foot, 0, most) + beyond);
-    if (!IsDomeBeside(radius, dome.footRadius, wayIn) || wayIn + radius - dome.footRadius < m_StandOut)
+    const double beyond = BeyondVoxels(m_Inside, last, ball, ball + 2 * dome.ball.radius);
+    // Only ways nearer to each other than to the middle lead back: others go on.
+    if (Distance(before.middle, behind.middle) < reached)
+    {
+      dome.ball = Grown(dome.ball, beyond);
+    }
+    const double radius = dome.ball.radius;
+    const double wayIn = Distance(dome.foot.middle, dome.ball.middle);
+    dome.foot.radius = std::max(0.0, m_Inside.DistanceToBoundary(dome.foot.middle, 0, radius + wayIn) + beyond);
+    if (!IsDomeBeside(radius, dome.foot.radius, wayIn) || wayIn + radius - dome.foot.radius < m_StandOut)
     {
       return std::nullopt;
     }
@@ -394,12 +494,7 @@ BranchIntoDomes(SkeletonGraph & graph, const OpenShape & inside, double standOut
     {
       const ElementIndex foot = CopyPoint(graph, line[dome.before]);
       keep.push_back(1);
-      graph.positions[foot] = dome.foot;
-      graph.radius[foot] = dome.footRadius;
-      if (!graph.medial.empty())
-      {
-        graph.medial[foot] = dome.foot;
-      }
+      PutAt(graph, foot, dome.foot);
       begun.insert(begun.end(),
                    line.begin() + static_cast<std::ptrdiff_t>(from),
                    line.begin() + static_cast<std::ptrdiff_t>(dome.before + 1));
@@ -409,6 +504,12 @@ BranchIntoDomes(SkeletonGraph & graph, const OpenShape & inside, double standOut
       into.insert(into.end(),
                   line.begin() + static_cast<std::ptrdiff_t>(dome.before + 1),
                   line.begin() + static_cast<std::ptrdiff_t>(dome.greatest + 1));
+      if (dome.ball.radius > graph.radius[line[dome.greatest]])
+      {
+        into.push_back(CopyPoint(graph, line[dome.greatest]));
+        keep.push_back(1);
+        PutAt(graph, into.back(), dome.ball);
+      }
       lines.push_back(std::move(into));
       for (std::size_t i = dome.greatest + 1; i < dome.behind; ++i)
       {

@@ -215,6 +215,14 @@ BallBoxes::Look(Search & search, std::size_t box) const
   }
 }
 
+std::array<double, 3>
+BallBoxes::Centre(std::size_t number) const
+{
+  const Balls &     balls = m_Balls[number / kInABox];
+  const std::size_t own = number % kInABox;
+  return { balls.centre[0][own], balls.centre[1][own], balls.centre[2][own] };
+}
+
 bool
 BallBoxes::IsNearer(const std::array<double, 3> & place, double most, std::size_t number) const
 {

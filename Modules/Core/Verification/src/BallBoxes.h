@@ -31,6 +31,15 @@ public:
   bool
   IsNearer(const std::array<double, 3> & place, double most, std::size_t number) const;
 
+  /** Of one ball, mm; its centre in lattice coordinates times the scale of each axis. */
+  std::array<double, 3>
+  Centre(std::size_t number) const;
+  double
+  Radius(std::size_t number) const
+  {
+    return m_Balls[number / kInABox].radius[number % kInABox];
+  }
+
 private:
   static constexpr std::size_t kInABox = 8;
 

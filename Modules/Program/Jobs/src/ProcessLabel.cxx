@@ -67,6 +67,7 @@ ProcessLabel(EditedLabel              edited,
   record.topologyEqual = true;
   record.enclosed = true;
   record.covered = result.covered;
+  record.standOut = result.standOut;
   for (CertifiedCore & one : result.cores)
   {
     record.pruned.push_back({ std::move(one.numbers) });

@@ -145,6 +145,10 @@ LabelJson(const LabelRecord & label, bool inFile)
   {
     json["skeleton"] = SkeletonRecordJson(*label.skeleton, inFile);
     json["certificate"]["skeleton"] = label.skeleton->topology == label.shape;
+    if (!inFile && label.standOut)
+    {
+      json["certificate"]["stand_out"] = *label.standOut;
+    }
   }
   json["certificate"]["passed"] = label.Passed();
   return json;

@@ -290,6 +290,10 @@ ParseLabelRecord(const std::string & text)
     {
       label.covered = json.at("certificate").at("covered").get<bool>();
     }
+    if (json.at("certificate").contains("stand_out"))
+    {
+      label.standOut = json.at("certificate").at("stand_out").get<bool>();
+    }
     if (label.skeleton)
     {
       label.skeleton->cuts = ReadLoopCuts(json.at("skeleton"));

@@ -99,6 +99,8 @@ if [ "$kind" = program ]; then
   refused gap 4 "$program" core $scan -o out.vtp
   refused direction 4 "$program" core $slices --refine off -o out.vtp
   refused direction 4 "$program" core $slices -o out.vtp
+  # Branches: only what stands out by ten times as much has one.
+  refused branches 4 "$program" skeleton $scan -o out.vtp
   # Bounds of thickness. Balls that reach far out of the voxels are refused without bounds, too.
   refused bounds 4 "$program" thickness $scan --refine off --bounds -o out.nrrd
   for fault in bounds lower thick thin; do
@@ -120,7 +122,7 @@ if [ "$kind" = program ]; then
   refused weights 4 "$program" thickness $scan --refine off --bounds -o out.nrrd
   refused each 4 "$program" core $scan -o out.vtp
   refused both 4 "$program" core $scan --lambda 0 --keep-edges -o out.vtp
-  # Radii and measures, of which a certificate says nothing. Stand-out of branches, once promised, goes here.
+  # Radii and measures, of which a certificate says nothing.
   verified radius "$program" core $scan --lambda 0 --keep-edges -o out.vtp
   verified radius "$program" core $scan --tolerance 0 --keep-edges -o out.vtp
   verified measure "$program" core $scan --lambda 0 --keep-edges -o out.vtp
@@ -158,7 +160,7 @@ fi
 none() {
   case "$1 $2" in
     "parts "*) return 0 ;;
-    "skeleton "[VI]TK | "bounds "[VI]TK | "lower "[VI]TK | "thin "[VI]TK | "thick VTK") return 0 ;;
+    "skeleton "[VI]TK | "branches "[VI]TK | "bounds "[VI]TK | "lower "[VI]TK | "thin "[VI]TK | "thick VTK") return 0 ;;
     "weights verify" | "place verify") [ "$kind" != program ] ;;
     "radius verify" | "measure verify" | "ball verify") return 1 ;;
     *" verify") return 0 ;;

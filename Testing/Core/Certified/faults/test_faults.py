@@ -70,6 +70,7 @@ BELOW_AN_ARRAY = [
     ("refinement", "refined"),
     ("skeleton", "skeleton"),
     ("skeleton", "table"),
+    ("branches", "skeleton"),
     ("enclosure", "core"),
     ("moves", "usual"),
     ("gap", "usual"),

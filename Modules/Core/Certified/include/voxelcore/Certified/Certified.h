@@ -5,6 +5,7 @@
 // The certificate. Euler number and Betti numbers are counted in the voxels and, independently, in every complex. They
 // are equal, every vertex lies in the open shape, and after pruning by tolerance every boundary vertex lies within the
 // tolerance of the balls that are left (of refined ones, no less than half a voxel's diagonal: RefinedGapBound()).
+// No ball in the shape stands out of the curves that a whole core burns to (BallStandingOut()).
 // Else a CertificateError is thrown, and there is no result.
 
 #include "voxelcore/Base/Progress.h"
@@ -129,8 +130,10 @@ struct CertifiedResult
   std::vector<CertifiedCore>        cores; ///< one per lambda or tolerance, in the order asked for
   std::optional<CertifiedSkeleton>  skeleton;
   std::optional<CertifiedThickness> thickness;
-  std::optional<bool>               covered; ///< true: every boundary gap is as promised; none: nothing is promised
-  CertifiedSeconds                  seconds;
+  std::optional<bool>               covered;  ///< true: every boundary gap is as promised; none: nothing is promised
+  std::optional<bool>               standOut; ///< true: every part of the body that stands out has a branch; none:
+                                              ///< nothing is promised, as the core is pruned before it burns
+  CertifiedSeconds seconds;
 };
 
 /** Without either, one core at kUsualTolerance is asked for. Tolerances without a lambda begin at the whole core. */

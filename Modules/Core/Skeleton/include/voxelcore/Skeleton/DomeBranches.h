@@ -15,8 +15,8 @@ namespace voxelcore
  *  their angle, stand out of theirs by 0.41 of it at most. */
 constexpr double kDomeOfRadius = 0.5;
 
-/** A branch into a dome ends within so many radii of its greatest ball. A trunk that ends in two twigs, which are thin
- *  beside it, goes on for longer. */
+/** A branch into a dome ends within so many radii of its greatest ball, and no greater ball lies within as many. A
+ *  trunk that ends in two twigs, which are thin beside it, goes on for longer. */
 constexpr double kDomeGoesOn = 2;
 
 /** Whether a ball is a dome beside another one whose middle is `way` from its own: greater, and standing out by
@@ -42,9 +42,10 @@ DomesOf(const SkeletonGraph & graph);
 
 /** Fire in a tube may come to a dome at its side from both ends before it burns the neck: the line runs into the dome
  *  and back. As far as each of the two ways lies in the balls of the other they are one: they meet in the middle
- *  between their last such places, and one branch leads on from there to the dome's greatest ball, when that stands
- *  out of the ball there by `standOut` mm and by kDomeOfRadius. All new segments lie in the shape. Cycles and
- *  components stay what they are. Gives the number of domes. */
+ *  between their last such places, and one branch leads on from there to the greatest ball to which balls grow from the
+ *  line's greatest on. That ball stands out of the ball there by `standOut` mm and by kDomeOfRadius, and the line's is
+ *  the greatest within kDomeGoesOn radii. All new segments lie in the shape. Cycles and components stay what they are.
+ *  Gives the number of domes. */
 std::size_t
 BranchIntoDomes(SkeletonGraph & graph, const OpenShape & inside, double standOut);
 
