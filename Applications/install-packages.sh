@@ -10,7 +10,7 @@ set -euo pipefail
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build ccache libvtk9-dev libtet1.5-dev libtiff-dev libpng-dev zlib1g-dev libbz2-dev \
-                 libblosc-dev libzstd-dev libexpat1-dev libinsighttoolkit5-dev libx11-dev libzip-dev \
+                 libblosc-dev libzstd-dev libexpat1-dev libinsighttoolkit5-dev libhdf5-dev libx11-dev libzip-dev \
                  libmeshoptimizer-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     wheel) echo g++ cmake ninja-build ccache libpng-dev zlib1g-dev libbz2-dev libblosc-dev libzstd-dev libexpat1-dev \
@@ -21,7 +21,7 @@ packages_of() {
     guide) echo mkdocs ;;
     test) echo clang-format xvfb libgtest-dev libgmock-dev mypy python3-nibabel python3-networkx python3-numpy \
                python3-pandas python3-pytest python3-xarray python3-pydicom python3-mrcfile python3-h5py minc-tools \
-               python3-tifffile python3-zarr python3-matplotlib python3-pyqt5 xauth mricron-data ;;
+               python3-tifffile python3-pil python3-zarr python3-matplotlib python3-pyqt5 xauth mricron-data ;;
     package) echo dpkg-dev file debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     analysis) echo clang clang-tidy cppcheck valgrind ;;

@@ -5,6 +5,7 @@
 #include "Pickling.h"
 #include "PythonWords.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Jobs/SkeletonFiles.h"
 #include "voxelcore/Options/Parameters.h"
 
@@ -130,6 +131,16 @@ Define(py::module_ & module)
       throw UsageError("unit " + unit + ": expected 'mm' or 'voxel'");
     }
     return SkeletonColumnsJson(*named);
+  });
+  module.def("voxel_size", [](const std::string & text) {
+    const auto size = ParseVoxelSize(text);
+    if (!size)
+    {
+      throw UsageError("spacing " + Printable(text) +
+                       ": expected one or three numbers above 0, in mm or with a unit, such as (0.5, 0.5, 2) or "
+                       "'50um'");
+    }
+    return *size;
   });
   module.def("end_all", &EndAll);
   module.def("forget_left_behind", &ForgetLeftBehind);

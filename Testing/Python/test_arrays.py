@@ -92,7 +92,7 @@ def test_slabs_of_rows_join_without_a_seam(order):
         (numpy.full((3, 3, 3), 0.5), r"0\.5"),
         (numpy.full((3, 3, 3), numpy.nan), "nan"),
         (numpy.full((3, 3, 3), -1), "-1"),
-        (7, "it is none"),
+        (7, "single value"),
         ("scan.nii.gz", r"nibabel\.load"),
     ],
 )
@@ -108,6 +108,8 @@ def test_what_makes_no_sense_is_refused_in_one_line(array, words):
         (dict(spacing=(1, 1)), "spacing"),
         (dict(spacing=(1, 1, 0)), "spacing|0"),
         (dict(spacing="abc"), "spacing"),
+        (dict(spacing="5 parsecs"), "spacing"),
+        (dict(spacing=0), "spacing|0"),
         (dict(lambda_="2 parsecs"), "parsecs"),
         (dict(lambda_=-1), "-1"),
         (dict(lambda_="0,1mm"), "give a list"),

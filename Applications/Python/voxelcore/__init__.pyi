@@ -11,6 +11,7 @@ _Lengths = Union[List[_Length], Tuple[_Length, ...], range, NDArray[Any]]
 _Labels = Union[List[int], Tuple[int, ...], range, NDArray[Any]]
 _Progress = Optional[Callable[[str, float], None]]
 _Vector = Sequence[float]
+_VoxelSize = Union[float, str, _Vector]
 _Image = Any  # of nibabel, SimpleITK, ITK, VTK, or an xarray.DataArray
 
 class CertificateError(RuntimeError): ...
@@ -140,7 +141,7 @@ class Skeleton(_Result):
 def core(
     array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[_Vector] = ...,
+    spacing: Optional[_VoxelSize] = ...,
     lambda_: Optional[_Length] = ...,
     label: Union[None, int, str] = ...,
     origin: Optional[_Vector] = ...,
@@ -155,7 +156,7 @@ def core(
 def core(
     array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[_Vector] = ...,
+    spacing: Optional[_VoxelSize] = ...,
     lambda_: _Lengths,
     label: Union[None, int, str] = ...,
     origin: Optional[_Vector] = ...,
@@ -170,7 +171,7 @@ def core(
 def core(
     array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[_Vector] = ...,
+    spacing: Optional[_VoxelSize] = ...,
     lambda_: Optional[_Length] = ...,
     label: Union[None, int, str] = ...,
     origin: Optional[_Vector] = ...,
@@ -185,7 +186,7 @@ def core(
 def core(
     array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[_Vector] = ...,
+    spacing: Optional[_VoxelSize] = ...,
     lambda_: Optional[_Length] = ...,
     label: _Labels,
     origin: Optional[_Vector] = ...,
@@ -235,7 +236,7 @@ def verify(
     core: Core,
     array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[_Vector] = ...,
+    spacing: Optional[_VoxelSize] = ...,
     origin: Optional[_Vector] = ...,
     direction: Optional[ArrayLike] = ...,
     axes: Optional[str] = ...,
@@ -254,7 +255,7 @@ class Thickness(NamedTuple):
 def thickness(
     array: Union[ArrayLike, _Image],
     *,
-    spacing: Optional[_Vector] = ...,
+    spacing: Optional[_VoxelSize] = ...,
     label: Any = ...,
     axes: Optional[str] = ...,
     threshold: Optional[Sequence[float]] = ...,

@@ -57,7 +57,7 @@ def voxels(array, spacing, axes, origin=None, direction=None, threshold=None):
     plain = without_mask(array, threshold)
     return Voxels(
         plain.T if axes == "kji" else plain,
-        None if spacing is None else three("spacing", spacing),
+        None if spacing is None else voxel_size(spacing),
         None if origin is None else three("origin", origin),
         None if direction is None else nine(direction),
         axes,
@@ -159,6 +159,13 @@ def labels(label):
         shown = " ".join(repr(label).split())  # arrays take several lines
         raise ValueError(f"label {shown}: expected a whole number, a list of them, 'all', 'any' or None")
     return ",".join(map(str, wholes))
+
+
+def voxel_size(spacing):
+    """In mm along i, j, k, of one number or three, or of text as the command line takes it."""
+    if isinstance(spacing, str):
+        return _voxelcore.voxel_size(spacing)
+    return three("spacing", (spacing,) * 3 if numpy.isscalar(spacing) else spacing)
 
 
 def three(name, values):

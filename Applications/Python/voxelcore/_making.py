@@ -30,9 +30,9 @@ def core(
         voxel, and not kept. It must not change meanwhile. Or an image of nibabel, SimpleITK, ITK or VTK, or an
         xarray.DataArray with the dimensions x, y and z: spacing, origin, direction and axes are then the image's,
         unless given.
-    spacing : three floats, mm, optional
-        Between voxels along i, j and k. None: it is not known; all lengths are then in voxels, results have the unit
-        'voxel', and a length in mm is refused.
+    spacing : float, three floats, or str, mm, optional
+        Between voxels along i, j and k; as text with a unit, such as '50um'. None: it is not known; all lengths are
+        then in voxels, results have the unit 'voxel', and a length in mm is refused.
     lambda_ : float, str, or list or array of these, mm, optional
         How much is pruned: all of the surface stays whose nearest boundary points lie at least 2 lambda apart. A
         number (of mm, or of voxels without a spacing), or text with a unit: '1.5mm', '1.5vox' (times the smallest

@@ -31,7 +31,7 @@ def verify(core, array, *, spacing=None, origin=None, direction=None, axes=None,
         As it was made, or as read() gives it. Threshold, edits and labels are taken as when it was made.
     array : array_like of whole numbers, shape (ni, nj, nk), or image
         The scan, as of core().
-    spacing : three floats, mm, optional
+    spacing : float, three floats, or str, mm, optional
         The core's, unless given.
     origin : three floats, mm, optional
         The core's, unless given.
@@ -122,7 +122,7 @@ def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, pro
     ----------
     array : array_like of whole numbers, shape (ni, nj, nk), or image
         As of core().
-    spacing : three floats, mm, optional
+    spacing : float, three floats, or str, mm, optional
         As of core().
     label : int, str, or list or array of int, optional
         As of core(), but each label is always measured by itself.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,39 @@ TEST(TextFields, OnlyWholeWordsAreNumbers)
   }
   EXPECT_EQ(ParseReals(" 1 2.5\t-3e2 "), (std::vector<double>{ 1, 2.5, -300 }));
   EXPECT_FALSE(ParseReals("1 2,5"));
+}
+
+TEST(TextFields, VoxelSizesAreOneNumberOrThreeWithUnits)
+{
+  using Size = std::array<double, 3>;
+  EXPECT_EQ(ParseVoxelSize("0.05"), (Size{ 0.05, 0.05, 0.05 }));
+  EXPECT_EQ(ParseVoxelSize("50um"), (Size{ 0.05, 0.05, 0.05 }));
+  EXPECT_EQ(ParseVoxelSize("50 \xC2\xB5m"), (Size{ 0.05, 0.05, 0.05 }));
+  EXPECT_EQ(ParseVoxelSize("0.5, 0.5, 2"), (Size{ 0.5, 0.5, 2 }));
+  EXPECT_EQ(ParseVoxelSize("0.5,0.5,2cm"), (Size{ 5, 5, 20 }));
+  EXPECT_EQ(ParseVoxelSize("4nm,4nm,0.04um"), (Size{ 4e-6, 4e-6, 4e-5 }));
+  EXPECT_EQ(ParseVoxelSize("1,2um,3mm"), (Size{ 0.001, 0.002, 3 }));
+  EXPECT_EQ(ParseVoxelSize("5e-2"), (Size{ 0.05, 0.05, 0.05 }));
+  for (const char * text : { "",
+                             ",",
+                             "1,1",
+                             "1,1,1,1",
+                             "0",
+                             "-1",
+                             "1,1,0",
+                             "inf",
+                             "nan",
+                             "mm",
+                             "1mm,1,1",
+                             "1,1um,1",
+                             "5 parsecs",
+                             "1;1;1",
+                             "1um 2um 3um",
+                             "1.2.3",
+                             "1e400" })
+  {
+    EXPECT_FALSE(ParseVoxelSize(text)) << text;
+  }
 }
 
 TEST(TextFields, ForeignTextStaysOnOneLine)

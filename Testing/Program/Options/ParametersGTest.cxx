@@ -208,7 +208,7 @@ TEST(Parameters, DefaultsAreThoseOfTheTable)
 TEST(Parameters, ValuesArriveWhereTheyBelong)
 {
   const CoreOptions options = CoreOptionsFrom(CoreValues({ { "threshold", "-100.5:inf" },
-                                                           { "spacing", "0.5,0.25,2" },
+                                                           { "spacing", "500,250,2000um" },
                                                            { "volume", "3" },
                                                            { "nifti-form", "qform" },
                                                            { "triangles", "true" },

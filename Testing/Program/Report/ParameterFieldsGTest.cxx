@@ -33,6 +33,11 @@ SetOther(std::optional<T> & field)
   field = 3;
 }
 void
+SetOther(std::optional<std::string> & field)
+{
+  field = "a/b";
+}
+void
 SetOther(std::optional<std::pair<double, double>> & field)
 {
   field = { -1.0 / 3, 1e9 };

@@ -1,9 +1,10 @@
 // Prints what ReadLabelVolume makes of a scan, as JSON on one line, for comparison with other readers.
 //
-// usage: VoxelCoreDumpScan SCAN [form=auto|sform|qform] [component=N] [volume=N] [level=N]
+// usage: VoxelCoreDumpScan SCAN [form=auto|sform|qform] [component=N] [volume=N] [level=N] [spacing=H] [dataset=NAME]
 //                          [threshold=LO:HI] [crop=I0:I1,J0:J1,K0:K1] [names]
 //        VoxelCoreDumpScan -        the same for each line of standard input, words separated by tabs
 
+#include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 
@@ -38,6 +39,14 @@ OptionsOf(const std::vector<std::string> & words)
     if (word.starts_with("crop="))
     {
       options.crop = voxelcore::ParseCrop(word.substr(5));
+    }
+    else if (word.starts_with("dataset="))
+    {
+      options.dataset = word.substr(8);
+    }
+    else if (word.starts_with("spacing="))
+    {
+      options.spacing = voxelcore::ParseVoxelSize(word.substr(8));
     }
     else if (word.starts_with("form="))
     {

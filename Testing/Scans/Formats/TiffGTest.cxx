@@ -196,7 +196,6 @@ TEST(TiffBad, WhatIsNoVolumeOfWholeNumbersIsRefused)
     ExpectRefused(folder.Write("a.tif", Tiff(pages)), texts);
   };
   const auto pages = Pages<std::uint8_t>(1);
-  refuse({ pages[0] }, { "2-D" }, [](TiffPage &) {});
   refuse(pages, { "colour" }, [](TiffPage & page) {
     page.samples = 3;
     page.photometric = 2;
@@ -289,8 +288,8 @@ TEST(TiffSlices, PatternsChooseAmongFiles)
     EXPECT_EQ(volume.labels.back().value, 11);
   }
   ExpectRefused(folder.Path(), { "not numbered alike", "a_008.tif" });
-  ExpectRefused(folder / "c_*.tif", { "no TIFF or PNG slices" });
-  ExpectRefused(folder / "a_%02d.tif", { "no TIFF or PNG slices" });
+  ExpectRefused(folder / "c_*.tif", { "no TIFF, PNG or BMP slices" });
+  ExpectRefused(folder / "a_%02d.tif", { "no TIFF, PNG or BMP slices" });
 }
 
 TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
@@ -323,9 +322,12 @@ TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
   folder.Write("deep/2.tif", Slice(1, 3, 16));
   EXPECT_THROW(ReadLabelVolume(folder / "deep"), InputError);
   folder.Write("one/1.tif", Slice(1));
-  ExpectRefused(folder / "one", { "only one slice" });
+  const LabelMap one = ReadLabelVolume(folder / "one");
+  EXPECT_EQ(one.geometry.size, (std::array<std::int64_t, 3>{ 3, 2, 1 }));
+  EXPECT_TRUE(HasNote(one.warnings, "one slice"));
+  EXPECT_EQ(AllValues(ReadLabelVolume(folder / "one/1.tif")), AllValues(one));
   std::filesystem::create_directory(folder / "none");
-  ExpectRefused(folder / "none", { "no TIFF or PNG slices" });
+  ExpectRefused(folder / "none", { "no TIFF, PNG or BMP slices" });
   folder.Write("stacks/1.tif", Tiff(Pages<std::uint8_t>(1)));
   folder.Write("stacks/2.tif", Tiff(Pages<std::uint8_t>(1)));
   EXPECT_THROW(ReadLabelVolume(folder / "stacks"), InputError);

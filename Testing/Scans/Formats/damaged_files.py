@@ -2,7 +2,7 @@
 memory than what the file's bytes can stand for. The process reads one after the other; a new one takes its place when
 it dies.
 
-usage: damaged_files.py DUMP_PROGRAM mgh|zarr|tiff|lsm COUNT      exit 77: what writes the format is not there
+usage: damaged_files.py DUMP_PROGRAM mgh|numpy|bmp|zarr|tiff|lsm COUNT      exit 77: what writes the format is not there
 """
 import json
 import os
@@ -31,6 +31,28 @@ def write_mgh(folder):
     for name in ("a.mgh", "b.mgz"):
         nibabel.save(nibabel.MGHImage(values, numpy.diag([-1, 2, 1.5, 1])), folder / name)
     return [[folder / "a.mgh"], [folder / "b.mgz"]], [folder / "a.mgh", folder / "b.mgz"]
+
+
+def write_numpy(folder):
+    import numpy
+    values = numpy.zeros((20, 18, 16), numpy.int16)
+    values[3:12, 4:9, 2:14] = 7
+    names = [folder / "a.npy", folder / "b.npy"]
+    numpy.save(names[0], values)
+    numpy.save(names[1], numpy.asfortranarray(values.astype(">u4")))
+    return [[name] for name in names], names
+
+
+def write_bmp(folder):
+    import numpy
+    from PIL import Image
+    values = numpy.zeros((40, 31), numpy.uint8)
+    values[3:12, 4:9] = 7
+    names = []
+    for mode in ("1", "L", "RGB"):
+        names.append(folder / f"{mode}.bmp")
+        Image.fromarray(values).convert(mode).save(names[-1])
+    return [[name] for name in names], names
 
 
 def write_tiff(folder):
@@ -160,7 +182,8 @@ def main(dump, form, count):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         try:
-            writers = {"mgh": write_mgh, "tiff": write_tiff, "lsm": write_lsm, "zarr": write_zarr}
+            writers = {"mgh": write_mgh, "numpy": write_numpy, "bmp": write_bmp, "tiff": write_tiff, "lsm": write_lsm,
+                       "zarr": write_zarr}
             parts, scans = writers[form](folder)
         except ImportError as missing:
             print(missing)

@@ -121,9 +121,10 @@ TYPED_TEST(ItkShapeFilterOfPixel, EveryTypeHasTheSameShapesAndItsLargestLabel)
   {
     filter->SetInput(
       MakeImage<TypeParam>(size, [](int x, int y, int z) { return x == 3 && y == 2 && z == 1 ? -5 : 1; }));
+    filter->SetLabels("all");
     EXPECT_EQ(ThrownBy([&] { filter->Update(); }),
-              "the input image: value -5 at voxel (3,2,1) is negative; labels are whole numbers from 0 up; for a grey "
-              "scan give --threshold LO:HI");
+              "the input image: value -5 at voxel (3,2,1) is negative; labels are whole numbers from 0 up; name those "
+              "to take, such as --labels 1; for a grey scan give --threshold LO:HI");
   }
 }
 

@@ -106,7 +106,7 @@ TEST(ScanRows, TheEndOfTheDataIsCheckedWithTheLastRow)
 TEST(ScanRows, FormatsAreToldByTheName)
 {
   const TempFolder folder;
-  for (const char * name : { "a.nrrd", "a.nii.gz", "a.mha", "a.mgz", "a.tif", "slice_*.png" })
+  for (const char * name : { "a.nrrd", "a.nii.gz", "a.mha", "a.mgz", "a.npy", "a.tif", "slice_*.png" })
   {
     EXPECT_TRUE(IsScanFormat(folder / name)) << name;
   }

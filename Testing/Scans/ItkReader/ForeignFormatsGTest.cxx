@@ -32,7 +32,7 @@ TEST(ForeignFormats, AreToldByTheirFirstBytesWhateverTheirName)
     { At(128, "DICM"), { "GDCM cannot read it" } },
     { At(208, "MAP "), { "276 of 1024 bytes" } },
     { At(0, "CDF\1"), { "MINCImageIO" } },
-    { At(0, "\x89HDF\r\n\x1A\n"), { "HDF5", "h5py" } },
+    { At(0, "\x89HDF\r\n\x1A\n"), { "HDF5", "damaged" } },
 #else
     { At(128, "DICM"), { "DICOM file", "without ITK", "dcm2niix", "3D Slicer" } },
     { At(128, "DICM") + "1.2.840.10008.5.1.4.1.1.66.4", { "DICOM segmentation", "segimage2itkimage", "dcmqi" } },
@@ -46,7 +46,7 @@ TEST(ForeignFormats, AreToldByTheirFirstBytesWhateverTheirName)
     { At(0, "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"), { "OIB", "TIFF" } },
     { At(0, "# AmiraMesh BINARY"), { "Amira", "Fiji" } },
     { At(0, "CTDATA-HEADER_V1"), { "Scanco" } },
-    { At(0, "\x93NUMPY"), { "NumPy", "numpy.load('a.any')" } },
+    { At(0, "\x93NUMPY"), { "NumPy", "name it a.npy" } },
     { At(0, "MATLAB 5.0 MAT-file"), { "MATLAB", "niftiwrite" } },
     { At(0, "\xFF\xD8\xFF"), { "JPEG", "changes labels" } },
     { At(0, "NRRD0004"), { "name it a.nrrd" } },
@@ -71,7 +71,7 @@ TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
     { "a.mrc", { "of 1024 bytes" } },
     { "a.mnc", { "ITK" } },
     { "a.gipl", { "GiplImageIO does not know it" } },
-    { "a.h5", { "HDF5", "h5py" } },
+    { "a.h5", { "HDF5", "damaged" } },
 #else
     { "a.dcm", { "DICOM file", "dcm2niix" } },
     { "a.mrc", { "MRC" } },
@@ -88,12 +88,13 @@ TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
     { "a.nd2", { "ND2" } },
     { "a.oib", { "OIB" } },
     { "a.am", { "Amira" } },
-    { "a.npy", { "NumPy" } },
+    { "a.npy", { "NumPy", "numpy.save" } },
+    { "a.npz", { "NumPy", "numpy.save('a.npy', numpy.load('a.npz')" } },
     { "a.mat", { "MATLAB" } },
     { "a.jpg", { "JPEG" } },
-    { "a.bmp", { "2-D picture" } },
+    { "a.bmp", { "not a BMP picture" } },
     { "a.raw", { "a.nhdr", "sizes: 512 512 300", "data file: a.raw" } },
-    { "a.png", { "2-D image" } },
+    { "a.png", { "PNG" } },
   };
   const TempFolder folder;
   for (const auto & [name, texts] : cases)
@@ -128,7 +129,7 @@ TEST(ForeignFormats, FoldersWithoutSlicesSayWhatTheyHold)
   folder.Write("a.n5/attributes.json", "{}");
   ExpectRefused(folder / "a.n5", { "N5", "Fiji" });
   folder.Write("text/readme.txt", "nothing");
-  ExpectRefused(folder / "text", { "no TIFF or PNG slices" });
+  ExpectRefused(folder / "text", { "no TIFF, PNG or BMP slices" });
 }
 
 // What is said where nobody reads a file, as in a build without ITK.

@@ -103,7 +103,9 @@ def compare():
         return lambda ds, k: delattr(ds, name)
 
     refused("no place", made("noplace", change=drop("ImagePositionPatient")), "without a place")
-    refused("one slice", made("one", VOLUME[:1]), "only one slice")
+    same("one slice", made("one", VOLUME[:1]), VOLUME[:1], plain)
+    refused("one slice without a thickness", made("bare", VOLUME[:1], change=drop("SliceThickness")),
+            "only one slice, without a thickness")
 
     def colour(ds, _):
         ds.SamplesPerPixel, ds.PhotometricInterpretation, ds.PlanarConfiguration = 3, "RGB", 0

@@ -43,10 +43,16 @@ TYPED_TEST(LabelAssemblerOf, EachValueHasItsShapeInItsTightBox)
   if constexpr (std::is_signed_v<TypeParam>)
   {
     const std::vector<TypeParam> negative{ 0, TypeParam(-1) };
-    EXPECT_EQ(
-      MessageOf([&] { LabelsOf(negative, SizedGeometry(2, 1, 1)); }),
-      "the image: value -1 at voxel (1,0,0) is negative; labels are whole numbers from 0 up; for a grey scan give "
-      "--threshold LO:HI");
+    EXPECT_EQ(MessageOf([&] { LabelsOf(negative, SizedGeometry(2, 1, 1)); }),
+              "the image: value -1 at voxel (1,0,0) is negative; labels are whole numbers from 0 up; name those to "
+              "take, such as --labels 1; for a grey scan give --threshold LO:HI");
+    LabelChoice one;
+    one.labels = "1";
+    LabelAssembler assembler("the image", SizedGeometry(3, 1, 1), LabelAssembler::Pixel::Of<TypeParam>(), one);
+    const std::vector<TypeParam> ignored{ 1, TypeParam(-1), 0 };
+    assembler.AddRows(ignored.data(), 0, 1);
+    EXPECT_EQ(assembler.PassedOver(), std::vector<double>{ -1 });
+    EXPECT_EQ(assembler.TakeShapes().at(0).voxels, 1U);
   }
   if constexpr (std::is_floating_point_v<TypeParam>)
   {

@@ -238,12 +238,81 @@ TEST(DefectiveMeshes, WhatBoundsNothingIsRefused)
             std::string::npos);
 }
 
-TEST(DefectiveMeshes, AFinOnABoxIsRefused)
+TEST(DefectiveMeshes, CapsCloseHolesWhereverTheyAre)
 {
-  TriangleMesh mesh = BoxMesh({ 2, 2, 2 }, { 12, 12, 12 });
-  mesh.points.push_back({ 20, 20, 20 });
-  mesh.triangles.push_back({ 0, 1, 8 });
-  EXPECT_NE(MessageOf([&] { Voxelize(mesh, kGrid); }).find("three triangles meet"), std::string::npos);
+  const TriangleMesh box = BoxMesh({ 2, 2, 2 }, { 12, 12, 12 });
+  const VoxelShape   expected = Voxelize(box, kGrid).shape;
+  TriangleMesh       closed = box;
+  EXPECT_EQ(CapHoles(closed), 0U);
+  EXPECT_EQ(closed.triangles.size(), box.triangles.size());
+  // A tube: without the two sides along an axis no ray along it tells.
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    TriangleMesh tube = box;
+    std::erase_if(tube.triangles, [&](const auto & t) {
+      return tube.points[t[0]][axis] == tube.points[t[1]][axis] && tube.points[t[0]][axis] == tube.points[t[2]][axis];
+    });
+    ASSERT_EQ(tube.triangles.size(), 8U);
+    EXPECT_NE(MessageOf([&] { Voxelize(tube, kGrid); }).find("--cap"), std::string::npos);
+    EXPECT_EQ(CapHoles(tube), 2U);
+    const Voxelization capped = Voxelize(tube, kGrid);
+    EXPECT_EQ(capped.findings.rule, InsideRule::Winding);
+    EXPECT_EQ(capped.findings.openEdges, 0U);
+    EXPECT_EQ(Differences(capped.shape, expected), 0U);
+  }
+  // Two holes that meet at a corner, and triangles with points of their own, as STL has them.
+  TriangleMesh soup;
+  const auto & first = box.triangles[0];
+  const auto   second = std::find_if(box.triangles.begin(), box.triangles.end(), [&](const auto & t) {
+    return std::count_if(t.begin(), t.end(), [&](std::uint32_t corner) {
+             return std::find(first.begin(), first.end(), corner) != first.end();
+           }) == 1;
+  });
+  ASSERT_NE(second, box.triangles.end());
+  for (const auto & t : box.triangles)
+  {
+    if (&t == &first || &t == &*second)
+    {
+      continue;
+    }
+    const auto next = static_cast<std::uint32_t>(soup.points.size());
+    for (const std::uint32_t corner : t)
+    {
+      soup.points.push_back(box.points[corner]);
+    }
+    soup.triangles.push_back({ next, next + 1, next + 2 });
+  }
+  EXPECT_EQ(CapHoles(soup), 2U);
+  EXPECT_EQ(Differences(Voxelize(soup, kGrid).shape, expected), 0U);
+}
+
+TEST(DefectiveMeshes, AFinOnABoxAndAWallInItChangeNothing)
+{
+  const TriangleMesh box = BoxMesh({ 2, 2, 2 }, { 12, 12, 12 });
+  const VoxelShape   expected = Voxelize(box, kGrid).shape;
+  TriangleMesh       fin = box;
+  fin.points.push_back({ 20, 20, 20 });
+  fin.triangles.push_back({ 0, 1, 8 });
+  const Voxelization withFin = Voxelize(fin, kGrid);
+  EXPECT_EQ(withFin.findings.rule, InsideRule::Votes);
+  EXPECT_EQ(withFin.findings.openEdges, 3U);
+  EXPECT_GT(withFin.doubtful, 0U);
+  EXPECT_EQ(Differences(withFin.shape, expected), 0U);
+  // Two rooms with a wall between them: three sheets meet at its edges.
+  TriangleMesh rooms = BoxMesh({ 2, 2, 2 }, { 12, 12, 7 });
+  const auto   other = BoxMesh({ 2, 2, 7 }, { 12, 12, 12 });
+  for (const auto & t : other.triangles)
+  {
+    const auto isInWall = [&](std::uint32_t corner) { return other.points[corner][2] == 7; };
+    if (!isInWall(t[0]) || !isInWall(t[1]) || !isInWall(t[2]))
+    {
+      rooms.triangles.push_back({ t[0] + 8, t[1] + 8, t[2] + 8 });
+    }
+  }
+  rooms.points.insert(rooms.points.end(), other.points.begin(), other.points.end());
+  const Voxelization withWall = Voxelize(rooms, kGrid);
+  EXPECT_EQ(withWall.findings.openEdges, 4U);
+  EXPECT_EQ(Differences(withWall.shape, expected), 0U);
 }
 
 TEST(DefectiveMeshes, NumbersThatAreNoneAreRefused)

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/PlainText.h"
+#include "voxelcore/Base/Text.h"
 
 #include <charconv>
 #include <cmath>
@@ -169,6 +170,45 @@ MillimetresIn(std::string_view unit)
     return 1e-9;
   }
   return std::nullopt;
+}
+
+std::optional<std::array<double, 3>>
+ParseVoxelSize(std::string_view text)
+{
+  auto parts = SplitText(text, ',');
+  if (parts.size() == 1)
+  {
+    parts.resize(3, parts.front());
+  }
+  if (parts.size() != 3)
+  {
+    return std::nullopt;
+  }
+  std::array<double, 3> sizes{};
+  std::string_view      unit; // of the number behind
+  for (std::size_t k = 3; k-- > 0;)
+  {
+    const std::string_view word = Trim(parts[k]);
+    const std::size_t      end = word.find_last_of("0123456789.") + 1; // npos + 1 is 0
+    const std::string_view own = Trim(word.substr(end));
+    if (!own.empty() && unit.empty() && k < 2)
+    {
+      return std::nullopt; // which one the last number has would be guessed
+    }
+    unit = own.empty() ? unit : own;
+    const auto value = ParseReal(word.substr(0, end));
+    const auto mm = unit.empty() ? 1 : MillimetresIn(unit);
+    if (!value || !mm)
+    {
+      return std::nullopt;
+    }
+    sizes[k] = *mm < 1 ? *value / std::round(1 / *mm) : *value * *mm; // 50 um are the double 0.05
+    if (!(sizes[k] > 0) || !std::isfinite(sizes[k]))
+    {
+      return std::nullopt;
+    }
+  }
+  return sizes;
 }
 
 bool

@@ -378,11 +378,13 @@ SkeletonOf(const PlacedCore &       core,
   frame.Enter(surface.positions);
   const BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
-  CertifiedSkeleton result =
-    MeasureCurves(burned,
-                  body != nullptr ? MovedTo(frame.Enter(body->Box()).lower, *body) : BodyOf(surface, there),
-                  there,
-                  request);
+  const VoxelShape voxels = body != nullptr ? MovedTo(frame.Enter(body->Box()).lower, *body) : BodyOf(surface, there);
+  const bool       isWhole = request.lambda.value == 0 && !request.tolerance && !request.refined;
+  if (body != nullptr && isWhole && request.standOut.value > 0)
+  {
+    RequireNothingStandsOut(burned.curves, voxels, there, request);
+  }
+  CertifiedSkeleton result = MeasureCurves(burned, voxels, there, request);
   LeaveFrame(frame, request.branches.root, result);
   result.skeleton.label = core.label;
   result.skeleton.component = core.component;

@@ -26,10 +26,10 @@ ScanName(const fs::path & scan)
   std::string lower = name;
   std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
   // Longest first: "x.seg.nrrd" is "x".
-  static constexpr std::array<std::string_view, 31> extensions{
+  static constexpr std::array<std::string_view, 32> extensions{
     ".ome.zarr", ".mgh.gz", ".zarr", ".mgh",     ".mgz",  ".seg.nrrd", ".nii.gz", ".nrrd", ".nhdr", ".nii", ".mha",
     ".mhd",      ".tiff",   ".tif",  ".hdr",     ".img",  ".stl",      ".obj",    ".ply",  ".off",  ".vtk", ".vtp",
-    ".dcm",      ".mrc",    ".mnc",  ".gipl.gz", ".gipl", ".h5",       ".raw",    ".gz",   ".lsm"
+    ".dcm",      ".mrc",    ".mnc",  ".gipl.gz", ".gipl", ".h5",       ".raw",    ".gz",   ".lsm",  ".npy"
   };
   for (const std::string_view extension : extensions)
   {

@@ -57,8 +57,8 @@ Describe(const MeshFile & file, const Voxelization & made, LabelMap & volume)
       warn("the surface has no orientation: a voxel is in where a ray crosses it an odd number of times");
       break;
     case InsideRule::Votes:
-      warn("the surface is open at " + Counted(found.openEdges, "edge", "edges") +
-           ": a voxel is in where four of six rays along the axes say so; " +
+      warn("the surface is not closed: " + Counted(found.openEdges, "edge", "edges") +
+           " on an odd number of triangles; a voxel is in where four of six rays along the axes say so; " +
            Counted(made.doubtful, "voxel", "voxels") + " doubtful, where not all six agree");
       break;
   }
@@ -93,6 +93,7 @@ MeshVolume
 VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<std::int64_t> & resolution,
                  const std::optional<Vector3> &      spacing,
+                 bool                                cap,
                  const ProgressCallback &            progress)
 {
   if (resolution.has_value() == spacing.has_value())
@@ -104,6 +105,7 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   MeshFile file = ReadMesh(path);
   try
   {
+    const std::uint64_t holes = cap ? CapHoles(file.mesh) : 0;
     const VoxelGrid grid = resolution ? GridOfResolution(file.mesh, *resolution) : GridOfSpacing(file.mesh, *spacing);
     Voxelization    made = Voxelize(file.mesh, grid, PartOfProgress(progress, 0.2, 1));
     if (file.mayBeCut && made.findings.rule == InsideRule::Votes)
@@ -115,6 +117,10 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
     result.findings = made.findings;
     result.doubtful = made.doubtful;
     result.volume = AsVolume(path, file, grid, made);
+    if (cap)
+    {
+      result.volume.notes.push_back(Counted(holes, "hole", "holes") + " of the mesh capped");
+    }
     result.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
     return result;
   }
@@ -162,15 +168,20 @@ ReadScanOrMesh(const std::filesystem::path &       path,
       throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
                        " is none");
     }
+    if (options.cap)
+    {
+      throw UsageError("--cap: is for meshes, and " + path.string() + " is none");
+    }
     return { ReadLabelVolume(path, options, progress), {} };
   }
   if ((options.labels != "all" && options.labels != "1") || options.binary || options.threshold || options.volume ||
-      options.component || options.level || options.crop || options.orthonormalize || options.niftiForm != "auto")
+      options.component || options.level || options.dataset || options.crop || options.orthonormalize ||
+      options.niftiForm != "auto")
   {
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
-                     "about reading only --resolution and --spacing are for meshes");
+                     "about reading only --resolution, --spacing and --cap are for meshes");
   }
-  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, progress);
+  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, options.cap, progress);
   return { std::move(made.volume), std::move(made.mesh) };
 }
 

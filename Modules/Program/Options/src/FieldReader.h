@@ -92,6 +92,10 @@ private:
                    m_Reader.Whole(row.name, std::is_unsigned_v<T> ? 1 : 0, std::numeric_limits<std::int64_t>::max()))
                : static_cast<T>(*m_Reader.FirstResolution());
     }
+    else if constexpr (std::is_same_v<T, std::string>)
+    {
+      return m_Reader.Text(row.name);
+    }
     else if constexpr (std::is_same_v<T, CropRange>)
     {
       return ParseCrop(m_Reader.Text(row.name));
@@ -137,7 +141,7 @@ private:
     }
     else if constexpr (std::is_same_v<T, Vector3>)
     {
-      return m_Reader.Spacing(IsMeshFile(m_Reader.Text("scan")));
+      return m_Reader.Spacing(row.name);
     }
     else
     {

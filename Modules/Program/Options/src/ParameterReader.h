@@ -1,6 +1,7 @@
 #pragma once
 // The values given to a command, read by kind.
 
+#include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Base/DidYouMean.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParseReal.h"
@@ -172,28 +173,16 @@ public:
     return { *low, *high };
   }
 
-  /** Voxel sizes in mm; one number may serve all axes. */
+  /** A voxel size in mm. */
   Vector3
-  Spacing(bool isOneEnough = false, std::string_view name = "spacing") const
+  Spacing(std::string_view name = "spacing") const
   {
-    auto parts = SplitText(Text(name), ',');
-    if (parts.size() == 1 && isOneEnough)
+    const auto size = ParseVoxelSize(Text(name));
+    if (!size)
     {
-      parts.resize(3, parts.front());
+      ThrowUsageError(name, "one or three numbers above 0, in mm or with a unit, such as 0.5,0.5,2 or 50um");
     }
-    Vector3 spacing{};
-    bool    good = parts.size() == 3;
-    for (std::size_t k = 0; good && k < 3; ++k)
-    {
-      const auto value = ParseReal(parts[k]);
-      good = value && *value > 0 && std::isfinite(*value);
-      spacing[k] = value.value_or(0);
-    }
-    if (!good)
-    {
-      ThrowUsageError(name, "three positive numbers in mm, such as 0.5,0.5,2");
-    }
-    return spacing;
+    return *size;
   }
 
   /** The first of the resolutions given; only `core` and `voxelize` take several. */

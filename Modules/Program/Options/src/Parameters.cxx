@@ -83,12 +83,13 @@ VoxelizeOptionsFrom(const ParameterValues & values)
   options.resolutions = ResolutionsFrom(values, CommandId::Voxelize);
   if (reader.IsGiven("spacing"))
   {
-    options.spacing = reader.Spacing(true);
+    options.spacing = reader.Spacing();
   }
   if (options.resolutions.empty() != options.spacing.has_value())
   {
     throw UsageError("give either --resolution (voxels along the longest side) or --spacing (voxel size in mm)");
   }
+  options.cap = reader.IsSet("cap");
   options.output = reader.File("output");
   options.report = reader.FileIfGiven("report");
   options.force = reader.IsSet("force");

@@ -82,16 +82,17 @@ StraightenOptionsFrom(const ParameterValues & values)
   field("component", options.reading.component);
   field("level", options.reading.level);
   field("raw", options.reading.raw);
+  field("dataset", options.reading.dataset);
   field("orthonormalize", options.reading.orthonormalize);
   field("nifti_form", options.reading.niftiForm);
   if (reader.IsGiven("scan-spacing"))
   {
-    options.reading.spacing = reader.Spacing(false, "scan-spacing");
+    options.reading.spacing = reader.Spacing("scan-spacing");
   }
   ReadWay(reader, options);
   if (reader.IsGiven("spacing"))
   {
-    options.spacing = reader.Spacing(true);
+    options.spacing = reader.Spacing();
   }
   if (reader.IsGiven("width"))
   {

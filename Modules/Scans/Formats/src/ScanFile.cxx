@@ -5,6 +5,15 @@
 namespace voxelcore
 {
 
+void
+NoteOneSlice(std::size_t slices, ScanFile & scan)
+{
+  if (slices == 1)
+  {
+    scan.warnings.emplace_back("one slice: the volume is one voxel thick");
+  }
+}
+
 std::vector<std::string>
 WarningsOf(const ScanFile & scan)
 {

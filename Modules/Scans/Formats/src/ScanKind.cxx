@@ -27,8 +27,9 @@ ScanKindOf(const std::filesystem::path & path)
          : ends({ ".nii", ".nii.gz", ".hdr", ".hdr.gz", ".img", ".img.gz" }) ? ScanKind::Nifti
          : ends({ ".mha", ".mhd" })                                          ? ScanKind::MetaImage
          : ends({ ".mgh", ".mgz", ".mgh.gz" })                               ? ScanKind::Mgh
+         : ends({ ".npy" })                                                  ? ScanKind::Numpy
          : ends({ ".tif", ".tiff", ".lsm" })                                 ? ScanKind::Tiff
-         : ends({ ".png" })                                                  ? ScanKind::Png
+         : ends({ ".png", ".bmp" })                                          ? ScanKind::Picture
                                                                              : ScanKind::Unknown;
 }
 

@@ -1,11 +1,14 @@
-// A folder or a pattern of TIFF or PNG slices as one volume, in natural order (2 before 10).
+// A folder or a pattern of TIFF, PNG or BMP slices as one volume, in natural order (2 before 10).
 
+#include "BmpFile.h"
 #include "PngFile.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 #include "TiffFile.h"
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 #include <optional>
 
 namespace voxelcore
@@ -66,28 +69,55 @@ NaturallyLess(const Slice & a, const Slice & b)
                                       });
 }
 
-bool
-IsPng(const std::filesystem::path & path)
+enum class SliceKind : std::uint8_t
 {
-  return LowerCase(path.filename().string()).ends_with(".png");
+  None,
+  Tiff,
+  Png,
+  Bmp
+};
+
+SliceKind
+SliceKindOf(const std::filesystem::path & path)
+{
+  const std::string extension = LowerCase(path.extension().string());
+  return extension == ".tif" || extension == ".tiff" ? SliceKind::Tiff
+         : extension == ".png"                       ? SliceKind::Png
+         : extension == ".bmp"                       ? SliceKind::Bmp
+                                                     : SliceKind::None;
 }
 
-/** The slice as one page; of a PNG as if it were one of TIFF. */
+const char *
+NameOf(SliceKind kind)
+{
+  return kind == SliceKind::Png ? "PNG" : kind == SliceKind::Bmp ? "BMP" : "TIFF";
+}
+
+/** The slice as one page; of another kind as if it were one of TIFF. */
 TiffPages
 InspectSlice(const std::filesystem::path & path, const ReadOptions & options)
 {
-  if (!IsPng(path))
+  const SliceKind kind = SliceKindOf(path);
+  TiffPages       page;
+  if (kind == SliceKind::Tiff)
   {
     return InspectTiff(path, options);
   }
+  page.offsets = { 0 };
+  if (kind == SliceKind::Bmp)
+  {
+    const BmpPage bmp = InspectBmp(path);
+    page.width = bmp.width;
+    page.height = bmp.height;
+    ChooseComponent(path, 1, "grey picture", options);
+    return page;
+  }
   const PngPage png = InspectPng(path, options);
-  TiffPages     page;
   page.width = png.width;
   page.height = png.height;
   page.bits = static_cast<std::uint16_t>(png.bits);
   page.samples = static_cast<std::uint16_t>(png.samples);
   page.type = png.Type();
-  page.offsets = { 0 };
   return page;
 }
 
@@ -147,14 +177,47 @@ Fits(std::string_view pattern, std::string_view name)
   return !name.empty() && name[0] == pattern[0] && Fits(pattern.substr(1), name.substr(1));
 }
 
+/** SkyScan's reconstruction (NRecon) lays a picture of the specimen beside its slices. */
+bool
+IsSpare(const std::filesystem::path & path)
+{
+  return LowerCase(path.stem().string()).ends_with("_spr");
+}
+
+/** The voxel size that the log of SkyScan's reconstruction states: "x_rec.log" beside slices x_rec00000017. */
+StatedSpacing
+SkyScanSpacing(const std::filesystem::path & slice)
+{
+  std::string stem = slice.stem().string();
+  stem.resize(stem.find_last_not_of("0123456789") + 1); // npos + 1 is 0
+  const std::filesystem::path log = slice.parent_path() / (stem + ".log");
+  StatedSpacing               stated;
+  std::ifstream               file(log, std::ios::binary);
+  bool                        isReconstruction = false;
+  std::string                 line;
+  for (int lines = 0; lines < 10000 && std::getline(file, line); ++lines)
+  {
+    const std::string_view text = Trim(line);
+    isReconstruction = text.starts_with('[') ? text == "[Reconstruction]" : isReconstruction;
+    constexpr std::string_view name = "Pixel Size (um)=";
+    const auto                 value = text.starts_with(name) ? ParseReal(text.substr(name.size())) : std::nullopt;
+    if (isReconstruction && value && *value > 0 && std::isfinite(*value))
+    {
+      const double mm = *value / 1000;
+      stated.mm = { mm, mm, mm };
+      stated.source = Text("'", Printable(log.filename().string()), "'");
+    }
+  }
+  return stated;
+}
+
 bool
 IsSlice(const std::filesystem::directory_entry & entry)
 {
   const std::string name = entry.path().filename().string();
-  const std::string lower = LowerCase(name);
-  const bool        known = lower.ends_with(".tif") || lower.ends_with(".tiff") || lower.ends_with(".png");
   std::error_code   ignored;
-  return known && !name.starts_with('.') && entry.is_regular_file(ignored);
+  return SliceKindOf(entry.path()) != SliceKind::None && !name.starts_with('.') && !IsSpare(entry.path()) &&
+         entry.is_regular_file(ignored);
 }
 
 std::vector<Slice>
@@ -182,16 +245,24 @@ FindSlices(const std::filesystem::path & path)
       slices.push_back({ entry.path(), CutName(name) });
     }
   }
+  if (slices.empty() && std::filesystem::is_regular_file(path, error))
+  {
+    slices.push_back({ path, {} }); // called like a pattern
+  }
   if (slices.empty())
   {
     RefuseInput(path,
-                folder ? "no TIFF or PNG slices in this folder" : "no TIFF or PNG slices of this pattern",
+                folder ? "no TIFF, PNG or BMP slices in this folder" : "no TIFF, PNG or BMP slices of this pattern",
                 "check the name");
   }
-  const auto pngs = std::count_if(slices.begin(), slices.end(), [](const Slice & slice) { return IsPng(slice.path); });
-  if (pngs > 0 && static_cast<std::size_t>(pngs) < slices.size())
+  const SliceKind kind = SliceKindOf(slices.front().path);
+  const auto      other =
+    std::find_if(slices.begin(), slices.end(), [kind](const Slice & slice) { return SliceKindOf(slice.path) != kind; });
+  if (other != slices.end())
   {
-    RefuseInput(path, "both TIFF and PNG slices", "give a pattern such as slice_*.png");
+    RefuseInput(path,
+                Text("both ", NameOf(kind), " and ", NameOf(SliceKindOf(other->path)), " slices"),
+                "give a pattern such as slice_*.png");
   }
   std::sort(slices.begin(), slices.end(), NaturallyLess);
   return slices;
@@ -321,10 +392,6 @@ ScanFile
 OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
 {
   const std::vector<Slice> slices = FindSlices(path);
-  if (slices.size() == 1)
-  {
-    RefuseInput(path, "only one slice", "a volume is needed");
-  }
   CheckNumbering(path, slices);
   ScanFile                           scan;
   std::vector<std::filesystem::path> files;
@@ -358,18 +425,25 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
     files.push_back(slice.path);
   }
   scan.path = path;
-  const bool png = IsPng(files.front());
-  scan.format = png ? "PNG slices" : "TIFF slices";
+  const SliceKind kind = SliceKindOf(files.front());
+  scan.format = Text(NameOf(kind), " slices");
   DescribeTiff(common, scan);
   scan.geometry.size = { common.width, common.height, static_cast<std::int64_t>(files.size()) };
   ChooseVolume(path, 1, options);
   CheckSize(path, scan.geometry.size, PixelBytes(common.type), ~std::uint64_t{ 0 });
-  scan.notes.push_back(
-    Text(files.size(), " slices from ", files.front().filename().string(), " to ", files.back().filename().string()));
-  const Vector3 spacing = CompleteSpacing(common.spacing, options, scan);
+  NoteOneSlice(files.size(), scan);
+  if (files.size() > 1)
+  {
+    scan.notes.push_back(
+      Text(files.size(), " slices from ", files.front().filename().string(), " to ", files.back().filename().string()));
+  }
+  const StatedSpacing logged = SkyScanSpacing(files.front());
+  const Vector3       spacing = CompleteSpacing(logged.mm[0] ? logged : common.spacing, options, scan);
   SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, spacing, { 0, 0, 0 }, options);
-  scan.voxels = OpenParts(files, common.PageBytes(), [png, options](const std::filesystem::path & file) {
-    return png ? OpenPngPage(file, options) : OpenTiffPages(file, InspectTiff(file, options));
+  scan.voxels = OpenParts(files, common.PageBytes(), [kind, options](const std::filesystem::path & file) {
+    return kind == SliceKind::Png   ? OpenPngPage(file, options)
+           : kind == SliceKind::Bmp ? OpenBmpPage(file)
+                                    : OpenTiffPages(file, InspectTiff(file, options));
   });
   return scan;
 }

@@ -233,12 +233,9 @@ ScanFile
 OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
 {
   const TiffPages pages = InspectTiff(path, options);
-  if (pages.offsets.size() == 1)
-  {
-    RefuseInput(path, "2-D image (one page)", "a volume is needed: a TIFF of many pages, or name the folder of slices");
-  }
-  ScanFile scan;
+  ScanFile        scan;
   scan.path = path;
+  NoteOneSlice(pages.offsets.size(), scan);
   scan.format = pages.isLsm ? "LSM" : "TIFF";
   DescribeTiff(pages, scan);
   scan.geometry.size = { pages.width, pages.height, static_cast<std::int64_t>(pages.offsets.size()) };

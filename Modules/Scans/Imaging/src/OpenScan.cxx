@@ -1,5 +1,6 @@
 #include "OpenScan.h"
 
+#include "MaskFolder.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/ItkReader/ForeignFormats.h"
@@ -23,6 +24,27 @@ RefuseWithoutSlices(const std::filesystem::path & path)
   }
 }
 
+/** A folder without slices that holds volumes. */
+bool
+IsMaskFolder(const std::filesystem::path & path)
+{
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored) && !HasSlices(path) && !MaskPaths(path).empty();
+}
+
+/** The masks, and what their headers name. */
+std::vector<std::filesystem::path>
+MaskFolderFiles(const std::filesystem::path & folder)
+{
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path & mask : MaskPaths(folder))
+  {
+    const auto its = ScanFiles(mask, {});
+    files.insert(files.end(), its.begin(), its.end());
+  }
+  return files;
+}
+
 } // namespace
 
 ScanFile
@@ -33,6 +55,10 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     return OpenRaw(path, options);
   }
   const ScanKind kind = ScanKindOf(path);
+  if (options.dataset && (kind != ScanKind::Unknown || FormatByItk(path) != ItkFormat::Hdf5))
+  {
+    throw UsageError(Text("--dataset: is for HDF5 files, and ", Printable(path.string(), 4096), " is none"));
+  }
   if (kind == ScanKind::Zarr)
   {
     return OpenZarr(path, options);
@@ -47,6 +73,10 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     if (FormatByItk(path) == ItkFormat::Dicom)
     {
       return OpenByItk(path, ItkFormat::Dicom, options);
+    }
+    if (IsMaskFolder(path))
+    {
+      return OpenMaskFolder(path, options);
     }
     RefuseWithoutSlices(path);
     return OpenSlices(path, options);
@@ -67,8 +97,10 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
       return OpenMgh(path, options);
     case ScanKind::Tiff:
       return OpenTiff(path, options);
-    case ScanKind::Png:
-      RefuseInput(path, "2-D image", "a volume is needed: name the folder of slices, or a pattern such as slice_*.png");
+    case ScanKind::Picture:
+      return OpenSlices(path, options);
+    case ScanKind::Numpy:
+      return OpenNumpy(path, options);
     case ScanKind::Slices:
     case ScanKind::Zarr:
     case ScanKind::Unknown:
@@ -105,6 +137,10 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
       {
         files = ItkScanFiles(path, ItkFormat::Dicom);
       }
+      else if (IsMaskFolder(path))
+      {
+        files = MaskFolderFiles(path);
+      }
       else
       {
         RefuseWithoutSlices(path);
@@ -136,8 +172,9 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
       }
       break;
     case ScanKind::Mgh:
+    case ScanKind::Numpy:
     case ScanKind::Tiff:
-    case ScanKind::Png:
+    case ScanKind::Picture:
       break;
   }
   std::erase_if(files, [&](const auto & file) { return !std::filesystem::is_regular_file(file, ignored); });

@@ -76,6 +76,10 @@ ReadLabelVolume(const std::filesystem::path & path, const ReadOptions & options,
     {
       scan.notes.push_back("layers use a value more than once: segments are numbered anew");
     }
+    for (const double value : assembler.PassedOver())
+    {
+      scan.notes.push_back(Text("the value ", Number(value), " is no label and counts as background"));
+    }
     LabelMap map = Described(scan, options, part);
     map.labels = std::move(labels);
     return map;

@@ -171,7 +171,7 @@ bool
 IsScanFormat(const std::filesystem::path & path)
 {
   const ScanKind kind = ScanKindOf(path);
-  return kind != ScanKind::Unknown && kind != ScanKind::Png; // one PNG is no volume
+  return kind != ScanKind::Unknown && kind != ScanKind::Picture; // programs read pictures by other means
 }
 
 ScanRows::ScanRows(const std::filesystem::path & path, const ReadOptions & options)

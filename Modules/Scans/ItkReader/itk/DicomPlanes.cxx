@@ -198,7 +198,7 @@ StackPlanes(const std::filesystem::path & path, const std::vector<DicomPlane> & 
     const auto thick = first.distance && *first.distance > 0 ? first.distance : first.thickness;
     if (!thick || !(*thick > 0))
     {
-      RefuseInput(path, "only one slice, without a thickness", "a volume is needed");
+      RefuseInput(path, "only one slice, without a thickness", "name the folder of its series");
     }
     distance = *thick;
     scan.notes.push_back(Text("one slice; it is taken to be as thick as it says, ", Number(distance), " mm"));

@@ -126,12 +126,8 @@ private:
       planes.push_back(slice.plane);
       scan.files.push_back(slice.path);
     }
-    if (m_Files.size() == 1)
-    {
-      RefuseInput(path, "only one slice", "a volume is needed: name the folder of its series");
-    }
     m_Stack = StackPlanes(path, planes, false, scan);
-    if (m_Stack.slices.size() == 1)
+    if (m_Stack.slices.size() == 1 && m_Files.size() > 1)
     {
       RefuseInput(path, Text(m_Files.size(), " slices at one place"), "a volume is needed");
     }

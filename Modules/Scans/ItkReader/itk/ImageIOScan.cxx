@@ -101,12 +101,6 @@ public:
   {
     if (!m_IO->CanReadFile(path.c_str()))
     {
-      if (format == ItkFormat::Hdf5)
-      {
-        RefuseInput(path,
-                    "an HDF5 file that is none of ITK's",
-                    "export its labels as TIFF: from the program that wrote it, from Fiji, or with h5py and tifffile");
-      }
       RefuseInput(path,
                   Text("ITK's ", m_IO->GetNameOfClass(), " does not know it"),
                   "the file is damaged or another's");
@@ -209,8 +203,12 @@ private:
 } // namespace
 
 std::unique_ptr<ScanSource>
-OpenByImageIO(const std::filesystem::path & path, ItkFormat format)
+OpenByImageIO(const std::filesystem::path & path, ItkFormat format, const std::string & dataset)
 {
+  if (format == ItkFormat::Hdf5 && (!dataset.empty() || !MakeImageIO(format)->CanReadFile(path.c_str())))
+  {
+    return OpenHdf5(path, dataset);
+  }
   return std::make_unique<ImageIOSource>(path, format);
 }
 

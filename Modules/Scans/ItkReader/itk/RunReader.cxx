@@ -135,15 +135,16 @@ CheckedBytes(const std::filesystem::path & path, const ItkScan & scan, std::uint
 }
 
 void
-Run(ItkFormat format, const std::filesystem::path & path)
+Run(ItkFormat format, const std::filesystem::path & path, const std::string & dataset)
 {
   // A file of a series stands for its folder.
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const auto fileBytes = BytesOf(format == ItkFormat::Dicom && !std::filesystem::is_directory(path) ? folder : path);
   LimitTo(fileBytes, 0);
-  const std::unique_ptr<ScanSource> source = format == ItkFormat::Dicom ? OpenDicom(path) : OpenByImageIO(path, format);
-  const std::uint64_t               bytes = CheckedBytes(path, source->scan, fileBytes);
-  const std::string                 text = ItkScanText(source->scan);
+  const std::unique_ptr<ScanSource> source =
+    format == ItkFormat::Dicom ? OpenDicom(path) : OpenByImageIO(path, format, dataset);
+  const std::uint64_t bytes = CheckedBytes(path, source->scan, fileBytes);
+  const std::string   text = ItkScanText(source->scan);
   WriteAll(text.data(), text.size());
   std::uint64_t volume = 0;
   std::uint64_t component = 0;
@@ -179,9 +180,9 @@ OneLine(std::string text)
 int
 RunReader(int argc, char ** argv)
 {
-  if (argc != 3 || FormatNamed(argv[1]) == ItkFormat::None)
+  if (argc < 3 || argc > 4 || FormatNamed(argv[1]) == ItkFormat::None)
   {
-    std::cerr << "usage: voxelcore-itk-reader dicom|mrc|minc|gipl|vtk|hdf5 PATH; VoxelCore calls it\n";
+    std::cerr << "usage: voxelcore-itk-reader dicom|mrc|minc|gipl|vtk|hdf5 PATH [DATASET]; VoxelCore calls it\n";
     return 2;
   }
   const std::filesystem::path path(argv[2]);
@@ -201,7 +202,7 @@ RunReader(int argc, char ** argv)
     {
       KeepTemporaryFilesApart();
     }
-    Run(FormatNamed(argv[1]), path);
+    Run(FormatNamed(argv[1]), path, argc > 3 ? argv[3] : "");
     return 0;
   }
   catch (const Error & error)

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace voxelcore::itkreader
 {
@@ -36,8 +37,13 @@ public:
 std::unique_ptr<ScanSource>
 OpenDicom(const std::filesystem::path & path);
 
-/** A file that one of ITK's ImageIOs reads. \throws InputError, itk::ExceptionObject */
+/** A file that one of ITK's ImageIOs reads; of HDF5 also others' (OpenHdf5), which is meant where `dataset` is given.
+ *  \throws InputError, itk::ExceptionObject */
 std::unique_ptr<ScanSource>
-OpenByImageIO(const std::filesystem::path & path, ItkFormat format);
+OpenByImageIO(const std::filesystem::path & path, ItkFormat format, const std::string & dataset = {});
+
+/** An array in an HDF5 file: `dataset` by its path, or the only one there is. \throws InputError */
+std::unique_ptr<ScanSource>
+OpenHdf5(const std::filesystem::path & path, const std::string & dataset);
 
 } // namespace voxelcore::itkreader

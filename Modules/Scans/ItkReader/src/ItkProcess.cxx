@@ -68,7 +68,7 @@ FindHelper()
 class ItkProcess
 {
 public:
-  ItkProcess(const fs::path & path, ItkFormat format)
+  ItkProcess(const fs::path & path, ItkFormat format, const ReadOptions & options)
     : m_Path(path)
   {
     const fs::path helper = FindHelper();
@@ -90,7 +90,12 @@ public:
     std::string                 name = helper.string();
     std::string                 word = ItkFormatName(format);
     std::string                 file = fs::absolute(path).string();
-    const std::array<char *, 4> words{ name.data(), word.data(), file.data(), nullptr };
+    std::string                 array = options.dataset.value_or("");
+    const std::array<char *, 5> words{ name.data(),
+                                       word.data(),
+                                       file.data(),
+                                       array.empty() ? nullptr : array.data(),
+                                       nullptr };
     const int                   error = posix_spawn(&m_Process, name.c_str(), &actions, nullptr, words.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0)
@@ -325,7 +330,7 @@ FormatByItk(const fs::path & path)
 ScanFile
 OpenByItk(const fs::path & path, ItkFormat format, const ReadOptions & options)
 {
-  auto     process = std::make_unique<ItkProcess>(path, format);
+  auto     process = std::make_unique<ItkProcess>(path, format, options);
   ItkScan  found = process->TakeScan();
   ScanFile scan;
   scan.path = path;
@@ -390,7 +395,7 @@ OpenByItk(const fs::path & path, ItkFormat format, const ReadOptions & options)
 std::vector<fs::path>
 ItkScanFiles(const fs::path & path, ItkFormat format)
 {
-  return ItkProcess(path, format).TakeScan().files;
+  return ItkProcess(path, format, {}).TakeScan().files;
 }
 
 } // namespace voxelcore

@@ -170,6 +170,14 @@ LabelAssembler::IsRenumbered() const
   return m_State->collector && m_State->collector->Naming().IsRenumbered();
 }
 
+std::vector<double>
+LabelAssembler::PassedOver() const
+{
+  const auto & collector = m_State->collector;
+  return collector ? std::vector<double>(collector->PassedOver().begin(), collector->PassedOver().end())
+                   : std::vector<double>();
+}
+
 std::vector<LabelShape>
 LabelAssembler::TakeShapes()
 {

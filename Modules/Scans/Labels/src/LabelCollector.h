@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <unordered_map>
 #include <vector>
 
@@ -46,6 +47,13 @@ public:
    *  is missing. */
   std::vector<LabelShape>
   TakeShapes();
+
+  /** Values below 0, taken as background because labels were named. */
+  const std::set<double> &
+  PassedOver() const
+  {
+    return m_PassedOver;
+  }
 
   const LabelNaming &
   Naming() const
@@ -111,6 +119,8 @@ private:
   Lookup(U bits, std::size_t layer, std::int32_t x, std::int32_t y, std::int32_t z);
   std::int32_t
   Classify(std::uint64_t bits, std::size_t layer, std::int32_t x, std::int32_t y, std::int32_t z);
+  bool
+  IsPassedOver(std::uint64_t bits);
   std::int64_t
   WholeNumber(std::uint64_t bits, std::int32_t x, std::int32_t y, std::int32_t z) const;
   double
@@ -131,6 +141,7 @@ private:
   bool                                     m_MayBeMissing;
   bool                                     m_ZeroIsBackground;
   std::vector<Table>                       m_Tables;
+  std::set<double>                         m_PassedOver; ///< values below 0
   std::vector<Found>                       m_Found;
   std::vector<Target>                      m_Targets;
   std::vector<std::int32_t>                m_Touched;

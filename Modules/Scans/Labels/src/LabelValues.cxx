@@ -48,7 +48,9 @@ LabelCollector::RefuseValue(double value, const char * what, std::int32_t x, std
 {
   RefuseInput(m_Scan.path,
               Text("value ", Number(value), " at voxel (", x, ",", y, ",", z, ") ", what),
-              "labels are whole numbers from 0 up; for a grey scan give --threshold LO:HI");
+              Text("labels are whole numbers from 0 up; ",
+                   value < 0 ? "name those to take, such as --labels 1; " : "",
+                   "for a grey scan give --threshold LO:HI"));
 }
 
 std::int64_t
@@ -87,6 +89,23 @@ LabelCollector::WholeNumber(std::uint64_t bits, std::int32_t x, std::int32_t y, 
   return static_cast<std::int64_t>(value);
 }
 
+// Below 0 files keep what is to be passed over (-1: ignore). Where labels are named nothing needs to be guessed.
+bool
+LabelCollector::IsPassedOver(std::uint64_t bits)
+{
+  if (m_Naming.WantsAll() || (!m_Scan.IsScaled() && !IsFloat(m_Scan.type) && Value(bits) >= 0))
+  {
+    return false;
+  }
+  const double value = ScaledValue(m_Scan, Value(bits));
+  if (!(value < 0) || value != std::floor(value) || !std::isfinite(value))
+  {
+    return false;
+  }
+  m_PassedOver.insert(value);
+  return true;
+}
+
 std::int32_t
 LabelCollector::Classify(std::uint64_t bits, std::size_t layer, std::int32_t x, std::int32_t y, std::int32_t z)
 {
@@ -94,6 +113,10 @@ LabelCollector::Classify(std::uint64_t bits, std::size_t layer, std::int32_t x, 
   {
     const double value = m_Scan.slope * Value(bits) + m_Scan.intercept;
     return value >= m_Threshold->first && value <= m_Threshold->second ? 0 : kBackground;
+  }
+  if (IsPassedOver(bits))
+  {
+    return kBackground;
   }
   const std::int64_t value = WholeNumber(bits, x, y, z);
   if (value == 0)

@@ -60,6 +60,7 @@ IsVolume(const fs::path & path)
                        ".mhd",
                        ".mgh",
                        ".mgz",
+                       ".npy",
                        ".lsm",
                        ".mrc",
                        ".mnc",
@@ -70,7 +71,7 @@ IsVolume(const fs::path & path)
 bool
 IsImage(const fs::path & path)
 {
-  return EndsInOneOf(path, { ".tif", ".tiff", ".png", ".dcm" });
+  return EndsInOneOf(path, { ".tif", ".tiff", ".png", ".bmp", ".dcm" });
 }
 
 /** Whether a file is read together with the scan beside it: its voxels, the names of its labels, its description. */

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <span>
 #include <string>
 
 namespace voxelcore
@@ -88,7 +90,6 @@ ForEachEdge(const std::vector<EdgeUse> & uses, const Visit & visit)
 struct EdgeCounts
 {
   std::uint64_t open = 0;       ///< on an odd number of triangles
-  std::uint64_t odd = 0;        ///< of these, on three or more
   std::uint64_t unbalanced = 0; ///< gone along more often in one direction than in the other
 };
 
@@ -103,9 +104,7 @@ CountEdges(const std::vector<Triangle> & triangles)
     {
       sum += uses[i].isForward ? 1 : -1;
     }
-    const bool isOpen = (end - begin) % 2 != 0;
-    counts.open += isOpen ? 1 : 0;
-    counts.odd += isOpen && end - begin > 1 ? 1 : 0;
+    counts.open += (end - begin) % 2;
     counts.unbalanced += sum != 0 ? 1 : 0;
   });
   return counts;
@@ -334,11 +333,6 @@ PrepareSurface(const TriangleMesh & mesh)
       }
     }
   }
-  if (counts.odd != 0)
-  {
-    throw InputError("it is not a surface: at " + std::to_string(counts.odd) + (counts.odd == 1 ? " edge" : " edges") +
-                     " three triangles meet, or five, so it does not say what is inside; repair it, or give a volume");
-  }
   if (counts.unbalanced != 0)
   {
     surface.isOriented = OrientPieces(mesh, surface);
@@ -358,6 +352,85 @@ PrepareSurface(const TriangleMesh & mesh)
   }
   surface.sense = SignedVolume(mesh, surface.triangles) < 0 ? -1 : 1;
   return surface;
+}
+
+std::uint64_t
+CapHoles(TriangleMesh & mesh)
+{
+  const auto            weld = WeldPoints(mesh.points);
+  std::vector<Triangle> triangles;
+  for (const Triangle & t : mesh.triangles)
+  {
+    triangles.push_back({ weld[t[0]], weld[t[1]], weld[t[2]] });
+    if (triangles.back()[0] == triangles.back()[1] || triangles.back()[1] == triangles.back()[2] ||
+        triangles.back()[2] == triangles.back()[0])
+    {
+      triangles.pop_back();
+    }
+  }
+  // Open edges as a cap has them, against their triangle. Each point has an even number of them, so that any walk along
+  // them comes back; where it meets itself a hole ends.
+  struct OpenEdge
+  {
+    std::uint32_t from;
+    std::uint32_t to;
+    bool          isUsed = false;
+  };
+  std::vector<OpenEdge>                             open;
+  std::map<std::uint32_t, std::vector<std::size_t>> around;
+  const auto                                        uses = SortedEdges(triangles);
+  ForEachEdge(uses, [&](std::size_t begin, std::size_t end) {
+    if ((end - begin) % 2 != 0)
+    {
+      const EdgeUse & use = uses[begin];
+      around[use.from].push_back(open.size());
+      around[use.to].push_back(open.size());
+      open.push_back(use.isForward ? OpenEdge{ use.to, use.from } : OpenEdge{ use.from, use.to });
+    }
+  });
+  const auto cap = [&mesh](std::span<const std::uint32_t> loop) {
+    Vector3 middle{ 0, 0, 0 };
+    for (const std::uint32_t corner : loop)
+    {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+      {
+        middle[axis] += mesh.points[corner][axis] / static_cast<double>(loop.size());
+      }
+    }
+    const auto centre = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(middle);
+    for (std::size_t i = 0; i < loop.size(); ++i)
+    {
+      mesh.triangles.push_back({ centre, loop[i], loop[(i + 1) % loop.size()] });
+    }
+  };
+  std::uint64_t holes = 0;
+  for (const OpenEdge & first : open)
+  {
+    std::vector<std::uint32_t> way{ first.from };
+    for (;;)
+    {
+      const std::uint32_t at = way.back();
+      const auto &        edges = around[at];
+      const auto next = std::find_if(edges.begin(), edges.end(), [&](std::size_t e) { return !open[e].isUsed; });
+      if (next == edges.end())
+      {
+        break; // back where it began
+      }
+      open[*next].isUsed = true;
+      const std::uint32_t to = open[*next].from == at ? open[*next].to : open[*next].from;
+      const auto          met = std::find(way.begin(), way.end(), to);
+      if (met == way.end())
+      {
+        way.push_back(to);
+        continue;
+      }
+      cap({ met, way.end() });
+      ++holes;
+      way.erase(met + 1, way.end());
+    }
+  }
+  return holes;
 }
 
 } // namespace voxelcore

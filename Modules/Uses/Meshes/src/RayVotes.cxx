@@ -223,7 +223,8 @@ FillByVotes(const IndexMesh &        mesh,
   if (!isSure)
   {
     throw InputError("it bounds nothing: it is open at " + std::to_string(surface.findings.openEdges) +
-                     " edges, and nowhere inside do five of six rays along the axes meet it as a closed surface's");
+                     " edges, and nowhere inside do five of six rays along the axes meet it as a closed surface's; "
+                     "close its holes with --cap");
   }
   return doubtful;
 }

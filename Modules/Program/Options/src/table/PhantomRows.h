@@ -10,7 +10,7 @@ namespace voxelcore::table
 
 inline constexpr auto kPhantomRows = std::to_array<Parameter>({
   { "size", "--size", Text, "N|X,Y,Z", "64", false, kPhantom, "Size in voxels" },
-  { "spacing", "--spacing", Text, "X,Y,Z", "1,1,1", false, kPhantom, "Voxel size in mm" },
+  { "spacing", "--spacing", Text, "H|X,Y,Z", "1", false, kPhantom, "Voxel size in mm" },
   { "seed", "--seed", Integer, "N", "1", false, kPhantom, "Seed of the random kinds: porous, noise, root, cells" },
   { "radius", "--radius", Real, "MM", "", false, kPhantom, "Radius; the default depends on the kind" },
   { "thickness", "--thickness", Real, "MM", "", false, kPhantom, "Thickness; the default depends on the kind" },

@@ -3,6 +3,7 @@
 
 #include "voxelcore/Base/ParseReal.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <locale>
@@ -64,6 +65,12 @@ RefuseInput(const std::filesystem::path & file, std::string_view wrong, std::str
 /** Millimetres in a unit of length ("um", "micron", "mm", ...); nothing when unknown. */
 std::optional<double>
 MillimetresIn(std::string_view unit);
+
+/** A voxel size in mm along i, j, k: one number for all axes or three with commas, in mm or in the unit of length
+ *  behind it; one without a unit has that of the next ("0.05", "50um", "0.5,0.5,2", "50,50,200um"). Nothing where it is
+ *  none, or not above 0 and finite. */
+std::optional<std::array<double, 3>>
+ParseVoxelSize(std::string_view text);
 
 /** Whether a unit of length is the voxel itself ("voxel", "pixel", "px", ...). */
 bool

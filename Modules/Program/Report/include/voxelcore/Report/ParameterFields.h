@@ -17,8 +17,10 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("component", options.reading.component);
   visit("level", options.reading.level);
   visit("raw", options.reading.raw);
+  visit("dataset", options.reading.dataset);
   visit("spacing", options.reading.spacing);
   visit("resolution", options.resolution);
+  visit("cap", options.reading.cap);
   visit("orthonormalize", options.reading.orthonormalize);
   visit("nifti_form", options.reading.niftiForm);
   visit("crop", options.reading.crop);

@@ -7,7 +7,7 @@
 //   MetaImage   no spacing becomes 1 mm; comes whole where it is packed
 //   TIFF        no distance between slices, tiles become colours, pages counted with 16 bits; comes whole
 //   LSM         crashes on thumbnails, metres are millimetres
-//   MGH, Zarr, bare voxels with a text beside them, folders of slices: unknown
+//   MGH, NumPy, Zarr, bare voxels with a text beside them, folders of slices: unknown
 // All else that ITK reads goes through it (ItkProcess.h).
 
 #include "voxelcore/Formats/ScanFile.h"
@@ -29,6 +29,9 @@ ScanFile
 OpenMetaImage(const std::filesystem::path & path, const ReadOptions & options);
 ScanFile
 OpenMgh(const std::filesystem::path & path, const ReadOptions & options);
+/** An array of NumPy's, .npy: the index that changes fastest is i. */
+ScanFile
+OpenNumpy(const std::filesystem::path & path, const ReadOptions & options);
 ScanFile
 OpenTiff(const std::filesystem::path & path, const ReadOptions & options);
 /** Bare voxels, by options.raw or by a text beside them. */
@@ -40,8 +43,8 @@ IsRawFile(const std::filesystem::path & path);
 /** That text, or for it the voxels. */
 std::vector<std::filesystem::path>
 RawFileTexts(const std::filesystem::path & path);
-/** A folder, or a pattern in the last part of the path: `*` stands for anything, `%d`, `%04d` or a run of `#` for a
- *  number. */
+/** A picture, a folder, or a pattern in the last part of the path: `*` stands for anything, `%d`, `%04d` or a run of
+ *  `#` for a number. */
 ScanFile
 OpenSlices(const std::filesystem::path & path, const ReadOptions & options);
 /** A Zarr store, an image or an array in it. Only chunks that options.crop touches are read; beyond it voxels are 0. */
@@ -63,7 +66,7 @@ NiftiPartner(const std::filesystem::path & path);
 /** Metadata and chunks of the part that options choose. */
 std::vector<std::filesystem::path>
 ZarrFiles(const std::filesystem::path & path, const ReadOptions & options);
-/** Whether a folder holds a TIFF or PNG file. */
+/** Whether a folder holds a slice: a TIFF, PNG or BMP file. */
 bool
 HasSlices(const std::filesystem::path & folder);
 /** The slices that a folder or pattern stands for, in natural order. */
@@ -77,8 +80,9 @@ enum class ScanKind : std::uint8_t
   Nifti,
   MetaImage,
   Mgh,
+  Numpy,
   Tiff,
-  Png,
+  Picture, ///< one slice: .png .bmp
   Slices,
   Zarr,
   Unknown

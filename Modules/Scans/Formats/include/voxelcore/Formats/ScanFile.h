@@ -32,6 +32,10 @@ struct ScanFile : StoredVoxels
   std::unique_ptr<ByteStream> voxels;              ///< i fastest, then j, then k, from the first voxel on
 };
 
+/** Warns where a scan of slices has but one: the volume is one voxel thick. */
+void
+NoteOneSlice(std::size_t slices, ScanFile & scan);
+
 /** The scan's warnings, each behind its name. */
 std::vector<std::string>
 WarningsOf(const ScanFile & scan);

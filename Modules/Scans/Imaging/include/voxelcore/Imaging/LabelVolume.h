@@ -21,10 +21,12 @@ namespace voxelcore
  *  - bare voxels (.raw .vol .bin .dat) with options.raw, or with a text beside them: a .dat with Resolution,
  *    SliceThickness and Format (OpenQVis, North Star), or lines as of MetaImage in .mhd, .txt or .info;
  *  - through ITK and GDCM, by a program of its own: DICOM series, multi-frame images and segmentations, MRC, MINC,
- *    GIPL, legacy VTK images, and HDF5 that ITK wrote;
- *  - slices, one TIFF or one PNG each (grey, 1 to 16 bits): a folder, or a pattern in the last part of the path, where
- *    `*` stands for anything and `%d`, `%04d` or a run of `#` for a number. They are taken in natural order (2 before
- *    10) and must be numbered without a gap.
+ *    GIPL, legacy VTK images, and HDF5;
+ *  - slices, one TIFF, PNG or BMP each (grey, 1 to 16 bits), or a single one: a folder, or a pattern in the last part
+ *    of the path, where `*` stands for anything and `%d`, `%04d` or a run of `#` for a number. They come in natural
+ *    order (2 before 10) and must be numbered without a gap. The log of SkyScan's reconstruction gives the voxel size;
+ *  - a folder of masks on one grid, one volume a structure: labels named as the files, which may overlap;
+ *  - NumPy arrays (.npy), of which the index that changes fastest is i;
  *  - FreeSurfer (.mgh, .mgz), named by FreeSurferColorLUT.txt beside it or in $FREESURFER_HOME;
  *  - OME-Zarr, Zarr versions 2 and 3 (a folder; blosc, zstd, gzip, zlib, bzip2, crc32c, shards): an image, a label
  *    image or an array; options.level picks the resolution. Of a part only its chunks are read.

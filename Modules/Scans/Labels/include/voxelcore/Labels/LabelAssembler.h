@@ -71,6 +71,10 @@ public:
   bool
   IsRenumbered() const;
 
+  /** Whole numbers below 0 that were found, if labels were named: they count as background. */
+  std::vector<double>
+  PassedOver() const;
+
   /** The shapes, by value. \throws InputError when a label asked for, or anything but background, is missing;
    *  GreyScanError */
   std::vector<LabelShape>

@@ -41,6 +41,13 @@ public:
   Label
   Identify(std::size_t layer, std::int64_t value);
 
+  /** Whether no labels were named. */
+  bool
+  WantsAll() const
+  {
+    return m_All;
+  }
+
   /** Whether it was asked for. */
   bool
   IsWanted(const Label & label) const;

@@ -33,12 +33,17 @@ GridOfResolution(const TriangleMesh & mesh, std::int64_t resolution);
 VoxelGrid
 GridOfSpacing(const TriangleMesh & mesh, const Vector3 & spacing);
 
+/** Closes each loop of open edges (on an odd number of triangles) with triangles around the mean of its points, and
+ *  says how many there were. */
+std::uint64_t
+CapHoles(TriangleMesh & mesh);
+
 /** By what it is decided whether a centre is in. */
 enum class InsideRule
 {
   Winding, ///< the surface is closed and oriented: in where its winding number is not 0
   Parity,  ///< closed, but of no orientation: in where a ray crosses it an odd number of times
-  Votes    ///< not closed: in where at least four of the six rays along the axes say so
+  Votes    ///< not closed, or more than two sheets meet: in where at least four of the six rays along the axes say so
 };
 
 /** What was found and set right in a mesh. */
@@ -49,7 +54,7 @@ struct MeshFindings
   std::uint64_t degenerate = 0; ///< with a corner twice: left out
   std::uint64_t duplicates = 0; ///< left out because others have the same corners
   std::uint64_t flipped = 0;    ///< turned to agree with their neighbours
-  std::uint64_t openEdges = 0;  ///< on an odd number of triangles
+  std::uint64_t openEdges = 0;  ///< on an odd number of triangles: one at a hole, three where sheets meet
   InsideRule    rule = InsideRule::Winding;
 };
 
@@ -68,7 +73,7 @@ struct Voxelization
  *  slices only). The result does not depend on the number of threads.
  *  Progress is reported as stage "voxelize".
  *  \throws InputError, without the name of a file, for a mesh that bounds nothing (no voxel is in, or nowhere do five
- *  of six rays say in), or three, five, ... triangles of which meet at an edge; Cancelled */
+ *  of six rays say in); Cancelled */
 Voxelization
 Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallback & progress = {});
 
