@@ -426,7 +426,7 @@ TEST(Straightening, SamplesAreLinearOrThoseOfTheNearestVoxel)
   plane.along = across[2];
   PlaneGrid grid;
   grid.half = { 9, 6 };
-  grid.spacing = { .4, .6 };
+  grid.spacing = { .6, .9 }; // in any direction a third of it lies out of the scan
   const std::size_t  count = 19 * 13;
   std::vector<float> linear(count);
   std::vector<float> nearest(count);
@@ -437,7 +437,7 @@ TEST(Straightening, SamplesAreLinearOrThoseOfTheNearestVoxel)
   for (int i = 0; i < static_cast<int>(count); ++i)
   {
     const Vector3 place =
-      AddScaled(AddScaled(plane.place, .4 * (i % 19 - 9), plane.across), .6 * (i / 19 - 6), plane.up);
+      AddScaled(AddScaled(plane.place, .6 * (i % 19 - 9), plane.across), .9 * (i / 19 - 6), plane.up);
     const Vector3 lattice = PhysicalToLattice(geometry, place);
     const auto    own = static_cast<std::size_t>(i);
     bool          isIn = true;
