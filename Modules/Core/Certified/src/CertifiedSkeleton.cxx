@@ -3,6 +3,7 @@
 #include "CertificateText.h"
 #include "CheckedLattice.h"
 #include "Frames.h"
+#include "RequestStages.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParallelTasks.h"
@@ -379,8 +380,7 @@ SkeletonOf(const PlacedCore &       core,
   const BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
   const VoxelShape voxels = body != nullptr ? MovedTo(frame.Enter(body->Box()).lower, *body) : BodyOf(surface, there);
-  const bool       isWhole = request.lambda.value == 0 && !request.tolerance && !request.refined;
-  if (body != nullptr && isWhole && request.standOut.value > 0)
+  if (body != nullptr && BurnsWhole(request) && !request.refined && request.standOut.value > 0)
   {
     RequireNothingStandsOut(burned.curves, voxels, there, request);
   }

@@ -81,9 +81,15 @@ Refines(const CertifiedRequest & request)
 }
 
 bool
+BurnsWhole(const SkeletonRequest & request)
+{
+  return request.lambda.value == 0 && !request.tolerance;
+}
+
+bool
 BurnsWhole(const CertifiedRequest & request)
 {
-  return request.skeleton && request.skeleton->lambda.value == 0 && !request.skeleton->tolerance;
+  return request.skeleton && BurnsWhole(*request.skeleton);
 }
 
 bool

@@ -27,6 +27,8 @@ Refines(const CertifiedRequest & request);
 
 /** Whether the skeleton is that of the whole core. */
 bool
+BurnsWhole(const SkeletonRequest & request);
+bool
 BurnsWhole(const CertifiedRequest & request);
 
 /** Whether the skeleton is burned while the whole core is there; else a pruned core that comes out is. */

@@ -7,7 +7,6 @@
 #include "voxelcore/VoxelCore/BallTree.h"
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -24,10 +23,10 @@ struct FormerBalls
 class ToleranceAt
 {
 public:
-  /** `weights`: ToleranceWeights() of the boundary vertices. */
-  ToleranceAt(double height, std::vector<double> weights)
+  /** `weights`: ToleranceWeights() of the boundary vertices, which must outlive the object. */
+  ToleranceAt(double height, const std::vector<double> & weights)
     : m_Height(height)
-    , m_Weights(std::move(weights))
+    , m_Weights(weights)
   {}
 
   double
@@ -37,8 +36,8 @@ public:
   }
 
 private:
-  double              m_Height;
-  std::vector<double> m_Weights;
+  double                      m_Height;
+  const std::vector<double> & m_Weights;
 };
 
 /** The balls of a refined core, and which one of them covers each boundary vertex. */

@@ -98,6 +98,10 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
   const std::vector<LiveElements> & left = input.left.empty() ? found : input.left;
   FootPointFinder                   finder(input, progress);
   const PointTree                   boundary(input.Boundary(), input.spacing);
+  const std::vector<double>         weights =
+    input.byTolerance && !thresholds.empty()
+              ? ToleranceWeights(*input.shape, ComputeSpacingWeights(input.spacing), input.Boundary())
+              : std::vector<double>();
   const auto refine = [&](RefinementState & working, double threshold, std::optional<double> height = {}) {
     finder.FindBends(working.GreatestRadii());
     working.Move(finder, progress);
@@ -111,10 +115,8 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
     BoundRadii(boundary, input.spacing, former.radius, refined.back());
     if (height)
     {
-      const ToleranceAt tolerance(
-        std::max(*height, 0.5 * Length(input.spacing)),
-        ToleranceWeights(*input.shape, ComputeSpacingWeights(input.spacing), input.Boundary()));
-      CoveredBoundary covered = KeepBoundaryCovered(input, boundary, tolerance, former, refined.back());
+      const ToleranceAt tolerance(std::max(*height, 0.5 * Length(input.spacing)), weights);
+      CoveredBoundary   covered = KeepBoundaryCovered(input, boundary, tolerance, former, refined.back());
       moved.insert(moved.end(), covered.back.begin(), covered.back.end());
       std::sort(moved.begin(), moved.end());
       moved.erase(std::unique(moved.begin(), moved.end()), moved.end());

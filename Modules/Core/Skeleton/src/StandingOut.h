@@ -10,13 +10,14 @@
 namespace voxelcore
 {
 
-/** The balls of a surface beside the places on its curves that stay. Such a place reaches as far as fire on the surface
- *  had to come to it: in a tube that is its ball, in a plate the disc around it. A ball stands out when it reaches out
- *  of what every place reaches by more than `standOut` mm, and from every place on is wider than a corner of 60 degrees
+/** The balls of a surface beside the places on its curves that stay. Such a place reaches as far as fire on the
+ *  surface had to come to it: in a tube that is its ball, in a plate the disc around it. A ball stands out when, seen
+ *  from every place, it goes beyond that reach by more than `standOut` mm and is wider than a corner of 60 degrees
  *  would be there.
- *  Fire in the neck of a dome reaches far into it. So of a dome it is enough that it reaches out of what places reach
- *  at all. That is a ball greater than the one to whose place its fire led and than those of all places within
- *  kDomeGoesOn radii, which stands out of every place's ball by `standOut` and by kDomeOfRadius. */
+ *
+ *  Of a dome less is asked, as fire in its neck reaches far into it. A dome is a ball that is greater than the one to
+ *  whose place its fire led, greater than those of all places within kDomeGoesOn radii, and that goes beyond every
+ *  place's ball by `standOut` and by kDomeOfRadius. It stands out where it goes beyond what places reach at all. */
 class StandingOut
 {
 public:

@@ -2,6 +2,7 @@
 // What pruning by tolerance asks of the vertices of a core again and again.
 
 #include "voxelcore/Complex/CellComplex.h"
+#include "voxelcore/Lattice/LatticePoint.h"
 
 #include <array>
 #include <cmath>
@@ -47,6 +48,13 @@ struct WeighedPlace
   BallCentre place;
   double     weight;
 };
+
+/** mm from the first boundary vertex, as TouchingBalls has it; `scale`: mm a lattice step. */
+inline BallCentre
+PlaceFromFirst(const LatticePoint & p, const LatticePoint & first, const BallCentre & scale)
+{
+  return { scale[0] * (p.x - first.x), scale[1] * (p.y - first.y), scale[2] * (p.z - first.z) };
+}
 
 /** How far a boundary vertex lies from the ball of y, weighed. */
 inline double

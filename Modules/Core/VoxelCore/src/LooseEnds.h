@@ -119,10 +119,7 @@ private:
   WeighedPlace
   PlaceOf(std::uint32_t point) const
   {
-    const LatticePoint & p = m_Points[point];
-    const LatticePoint & first = m_Points.front(); // as TouchingBalls has it
-    return { { m_Scale[0] * (p.x - first.x), m_Scale[1] * (p.y - first.y), m_Scale[2] * (p.z - first.z) },
-             m_Weights.empty() ? 1.0 : m_Weights[point] };
+    return { PlaceFromFirst(m_Points[point], m_Points.front(), m_Scale), m_Weights.empty() ? 1.0 : m_Weights[point] };
   }
   bool
   IsLive(ElementIndex vertex) const

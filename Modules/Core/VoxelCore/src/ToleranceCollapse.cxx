@@ -130,11 +130,7 @@ TouchedBy(const TouchingBalls & touching, const std::vector<LatticePoint> & poin
   RunInParts(touched.places.size() > 10000, touched.places.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
-      const LatticePoint & p = points[i];
-      touched.places[i] = {
-        { scale[0] * (p.x - points[0].x), scale[1] * (p.y - points[0].y), scale[2] * (p.z - points[0].z) },
-        touching.weights[i]
-      };
+      touched.places[i] = { PlaceFromFirst(points[i], points.front(), scale), touching.weights[i] };
     }
   });
   return touched;

@@ -1,6 +1,7 @@
 #include "voxelcore/VoxelCore/ToleranceWeights.h"
 
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -158,12 +159,6 @@ private:
   std::int32_t                        m_Z = 0;
 };
 
-double
-DiagonalOf(const std::array<double, 3> & sides)
-{
-  return std::sqrt(sides[0] * sides[0] + sides[1] * sides[1] + sides[2] * sides[2]);
-}
-
 std::array<double, 3>
 SidesOf(const SpacingWeights & weights)
 {
@@ -185,7 +180,7 @@ WeightOf(const std::array<std::int64_t, 3> & gradient, const std::array<double, 
     squared += normal * normal;
   }
   // The gradient's components along the axes are its differences over the sides, so these times the sides again.
-  return squared == 0 ? 1.0 : std::clamp(DiagonalOf(sides) * std::sqrt(squared) / sum, 1.0, most);
+  return squared == 0 ? 1.0 : std::clamp(Length(sides) * std::sqrt(squared) / sum, 1.0, most);
 }
 
 } // namespace
@@ -205,7 +200,7 @@ ToleranceWeights(const VoxelShape & shape, const SpacingWeights & weights, const
   }
   const RunSums       sums(widths[0]);
   const auto          sides = SidesOf(weights);
-  const double        most = DiagonalOf(sides) / (std::sqrt(3.0) * static_cast<double>(least));
+  const double        most = Length(sides) / (std::sqrt(3.0) * static_cast<double>(least));
   std::vector<double> result(points.size());
   RunInParts(points.size() > 1000, points.size(), [&](std::size_t first, std::size_t last) {
     Gradients gradients(shape, widths, sums);

@@ -168,6 +168,10 @@ MaskPaths(const fs::path & folder)
 {
   std::vector<fs::path> files;
   std::error_code       ignored;
+  if (!fs::is_directory(folder, ignored) || HasSlices(folder))
+  {
+    return files;
+  }
   for (const auto & entry : fs::directory_iterator(folder, ignored))
   {
     const std::string name = LowerCase(entry.path().filename().string());
@@ -186,11 +190,11 @@ MaskPaths(const fs::path & folder)
 }
 
 ScanFile
-OpenMaskFolder(const fs::path & folder, const ReadOptions & options)
+OpenMaskFolder(const fs::path & folder, const std::vector<fs::path> & paths, const ReadOptions & options)
 {
   ScanFile              scan;
   std::vector<ScanFile> masks;
-  for (const fs::path & file : MaskPaths(folder))
+  for (const fs::path & file : paths)
   {
     masks.push_back(OpenScan(file, options));
     const ScanFile & mask = masks.back();

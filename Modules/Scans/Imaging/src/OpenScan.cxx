@@ -24,27 +24,6 @@ RefuseWithoutSlices(const std::filesystem::path & path)
   }
 }
 
-/** A folder without slices that holds volumes. */
-bool
-IsMaskFolder(const std::filesystem::path & path)
-{
-  std::error_code ignored;
-  return std::filesystem::is_directory(path, ignored) && !HasSlices(path) && !MaskPaths(path).empty();
-}
-
-/** The masks, and what their headers name. */
-std::vector<std::filesystem::path>
-MaskFolderFiles(const std::filesystem::path & folder)
-{
-  std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path & mask : MaskPaths(folder))
-  {
-    const auto its = ScanFiles(mask, {});
-    files.insert(files.end(), its.begin(), its.end());
-  }
-  return files;
-}
-
 } // namespace
 
 ScanFile
@@ -74,9 +53,9 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     {
       return OpenByItk(path, ItkFormat::Dicom, options);
     }
-    if (IsMaskFolder(path))
+    if (const auto masks = MaskPaths(path); !masks.empty())
     {
-      return OpenMaskFolder(path, options);
+      return OpenMaskFolder(path, masks, options);
     }
     RefuseWithoutSlices(path);
     return OpenSlices(path, options);
@@ -137,9 +116,13 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
       {
         files = ItkScanFiles(path, ItkFormat::Dicom);
       }
-      else if (IsMaskFolder(path))
+      else if (const auto masks = MaskPaths(path); !masks.empty())
       {
-        files = MaskFolderFiles(path);
+        for (const std::filesystem::path & mask : masks)
+        {
+          const auto its = ScanFiles(mask, options);
+          files.insert(files.end(), its.begin(), its.end());
+        }
       }
       else
       {

@@ -236,8 +236,7 @@ private:
     const H5T_class_t kind = H5Tget_class(type.Id());
     if (kind == H5T_ENUM && bytes == 1) // truth values of h5py
     {
-      m_OwnType = H5Tget_native_type(type.Id(), H5T_DIR_ASCEND);
-      m_MemoryType = m_OwnType;
+      m_MemoryType = H5Tget_native_type(type.Id(), H5T_DIR_ASCEND); // kept until the process ends
       scan.type = PixelType::UInt8;
       return;
     }
@@ -316,7 +315,6 @@ private:
   std::vector<hsize_t>  m_Shape;
   std::size_t           m_Slowest = 0; ///< the axis that is k; the number of axes where there is one slice
   hid_t                 m_MemoryType = -1;
-  hid_t                 m_OwnType = -1; ///< of an enumeration; the process closes it
 };
 
 } // namespace

@@ -21,12 +21,15 @@ struct BallOutside
   double                      radius = 0; ///< mm
 };
 
-/** Of the balls around voxels, up to the nearest boundary vertex, the one that stands out of the places of a
- *  skeleton most, where one does so by more than `standOut` mm. Each place reaches so many mm around it. A ball stands
- *  out when it reaches farther beyond every place's reach and is wider than a corner of 60 degrees in which that reach
- *  lies: from there on balls become smaller by half of the way. In both, half a voxel's diagonal is granted, as middles
- *  of voxels lie beside the medial axis. Balls in groups of voxels are looked at once where none of them can stand out.
- *  Of equals the first; the same for every number of threads. Positions in lattice coordinates. */
+/** The ball that stands out of a skeleton most, if one does so by more than `standOut` mm; of equals the first. The
+ *  balls looked at are those around the middles of voxels, up to the nearest boundary vertex. The skeleton is given by
+ *  places, in lattice coordinates, and by how far each reaches, mm.
+ *
+ *  A ball stands out when, seen from every place,
+ *  - it goes beyond the place's reach by more than `standOut`, and
+ *  - it is wider than a corner of 60 degrees in which that reach lies: balls there shrink by half of the way.
+ *  In both, half a voxel's diagonal is granted, as middles of voxels lie beside the medial axis. The same for every
+ *  number of threads. */
 std::optional<BallOutside>
 BallStandingOut(const VoxelShape &                     shape,
                 const SpacingWeights &                 weights,
