@@ -64,7 +64,7 @@ for module in ${tested//;/ }; do
 done
 left_out="AreRefusedByThePythonModule" # Python is not built so
 if [[ ";$tested;" == *";Applications;"* ]]; then
-  targets+=(Applications/slicer/all voxelcore_faulty VoxelCoreVtkWay_faulty VoxelCoreItkWay_faulty)
+  targets+=(voxelcore voxelcore_faulty VoxelCoreVtkWay_faulty VoxelCoreItkWay_faulty)
 else
   left_out+="|AreRefusedBy(TheProgram|FiltersOf)"
 fi

@@ -44,7 +44,7 @@ echo 'cd /; /usr/bin/python3 -c "import voxelcore; print(voxelcore.__version__)"
 bash -eux "$scratch/lines.sh" >"$scratch/lines.log" 2>&1 </dev/null ||
   { tail -n 30 "$scratch/lines.log" >&2; fail "the lines of the guide failed"; }
 for file in "$scratch"/prefix/{bin/voxelcore,share/man/man1/voxelcore.1} \
-  "$scratch/prefix/lib/VoxelCore/cli-modules/VoxelCoreMedialSurface" \
+  "$scratch/prefix/lib/VoxelCore/qt-scripted-modules/VoxelCore.py" \
   {voxelcore,libvoxelcore-dev,python3-voxelcore}*.deb; do
   [ -s "$file" ] || fail "there is no $file"
 done

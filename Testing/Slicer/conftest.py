@@ -39,7 +39,6 @@ def scene(tmp_path, monkeypatch):
     slicer.mrmlScene.Clear()
     slicer.mrmlScene.undoStack.clear()
     slicer.util.errors.clear()
-    slicer.util.installed.clear()
     slicer.app.temporaryPath = str(tmp_path / "temporary")
     slicer.app.settings().values.clear()
     monkeypatch.setenv("PATH", "/usr/bin:/bin")
@@ -142,19 +141,23 @@ def body(labels=1):
     return voxels
 
 
+def thePackage():
+    from VoxelCoreLib import Backend
+
+    return Backend.Backend("package", [sys.executable, Backend.WORKER])
+
+
 @pytest.fixture(params=["package", "program"])
 def backend(request):
     from VoxelCoreLib import Backend
 
-    return Backend.find(PROGRAM) if request.param == "program" else Backend.find(mayInstall=False)
+    return Backend.find(PROGRAM) if request.param == "program" else thePackage()
 
 
 @pytest.fixture
 def package():
     """For what does not depend on who computes."""
-    from VoxelCoreLib import Backend
-
-    return Backend.find(mayInstall=False)
+    return thePackage()
 
 
 def rasIndex(points, ijkToRas):

@@ -12,7 +12,7 @@ from conftest import MODULE, PROGRAM, ROOT, body, run, segmentationOf, writeLabe
 
 pytest.importorskip("PyQt5.QtWidgets", reason="python3-pyqt5 is not here")
 import panel  # noqa: E402
-from VoxelCoreLib import Backend, Scene, Surfaces  # noqa: E402
+from VoxelCoreLib import Scene, Surfaces  # noqa: E402
 from VoxelCoreLib.Settings import PRESETS, Settings  # noqa: E402
 
 import VoxelCore  # noqa: E402
@@ -165,7 +165,6 @@ def test_surface_that_was_removed_leaves_an_empty_slider(widget, scene):
 
 def test_module_tests_itself(scene, monkeypatch):
     """What 'Reload and Test' runs in Slicer."""
-    monkeypatch.setattr(Backend, "install", lambda requirement: pytest.fail("it is installed"))
     test = VoxelCore.VoxelCoreTest()
     test.runTest()
 
@@ -192,6 +191,19 @@ def test_picture_in_the_guide_is_that_of_todays_panel(scene, tmp_path):
               for image in (today, shown)]
     assert (abs(values[0].astype(int) - values[1]) > 60).mean() < 0.005
     assert (values[0] < 100).mean() > 0.01, "there is text"
+
+
+def test_panel_without_program_and_package_says_what_to_do_before_anything_is_pressed(scene, monkeypatch):
+    line = "the program voxelcore is not here; choose it"
+
+    def find(program=""):
+        raise VoxelCore.VoxelCoreError(line)
+
+    monkeypatch.setattr(VoxelCore.Backend, "find", find)
+    bare = VoxelCore.VoxelCoreWidget(panel.Parent())
+    bare.setup()
+    assert bare.ui.statusLabel.text == line and slicer.util.errors == []
+    bare.cleanup()
 
 
 def test_module_says_what_it_is():

@@ -96,10 +96,17 @@ class VoxelCoreWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.addObserver(slicer.mrmlScene, slicer.mrmlScene.StartCloseEvent, self.onSceneStartClose)
         self.addObserver(slicer.mrmlScene, slicer.mrmlScene.EndCloseEvent, self.onSceneEndClose)
         self.ui.programPathLineEdit.currentPath = slicer.app.settings().value("VoxelCore/Program", "") or ""
-        self.ui.wheelPathLineEdit.currentPath = slicer.app.settings().value("VoxelCore/Wheel", "") or ""
         self.showRunning(False)
         self.readParameterNode()
         self.onSurfaceChanged()
+        self.sayWhoComputes()
+
+    def sayWhoComputes(self):
+        """Before anything is chosen: a panel without its program says so, and what to do."""
+        try:
+            Backend.find(self.ui.programPathLineEdit.currentPath)
+        except VoxelCoreError as error:
+            self.ui.statusLabel.text = str(error)
 
     def cleanup(self):
         self.onCancel()
@@ -175,11 +182,10 @@ class VoxelCoreWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
 
     def onApply(self, *unused):
         self.ui.statusLabel.text = ""
-        program, wheel = self.ui.programPathLineEdit.currentPath, self.ui.wheelPathLineEdit.currentPath
+        program = self.ui.programPathLineEdit.currentPath
         slicer.app.settings().setValue("VoxelCore/Program", program)
-        slicer.app.settings().setValue("VoxelCore/Wheel", wheel)
         try:
-            backend = Backend.find(program, wheel)
+            backend = Backend.find(program)
             self.logic.start(
                 self.ui.segmentationSelector.currentNode(), self.segmentIds(), self.settings(), backend
             )

@@ -29,10 +29,6 @@ program=build/bin/voxelcore
 grep -q 'trial.*option' build/manual/voxelcore-core.1 || fail "not in the manual page"
 grep -q -- '--trial-option' build/manual/voxelcore.bash || fail "not in bash's completion"
 grep -q -- '--trial-option' build/manual/_voxelcore || fail "not in zsh's completion"
-for module in VoxelCoreMedialSurface VoxelCoreCurveSkeleton; do
-  "build/lib/VoxelCore/cli-modules/$module" --xml | grep -q '<longflag>--trial-option</longflag>' ||
-    fail "not in Slicer's description of $module"
-done
 
 "$program" phantom ellipsoid --size 20 -o scan.nrrd -q
 "$program" core scan.nrrd --trial-option word --tolerance 0 --report core.json -o core.vtp -q
