@@ -181,7 +181,7 @@ TEST(LambdaPruning, OfACoreThatIsUsedUpIsTheSame)
   }
 }
 
-/** Of some 300,000 boundary vertices: arrays long enough to be packed. */
+/** Of some 300,000 boundary vertices: so many that threads share the work. */
 VoxelShape
 WavySheets()
 {
@@ -221,27 +221,24 @@ ExpectSameCores(const std::vector<MedialComplex> & a, const std::vector<MedialCo
   for (std::size_t i = 0; i < a.size(); ++i)
   {
     ASSERT_NO_FATAL_FAILURE(testing::ExpectSameCore(a[i], b[i]));
-    ASSERT_TRUE(a[i].waiting.edgeLambda.IsEmpty());
   }
 }
 
-TEST(LambdaPruning, OfACoreThatWaitsForItIsTheSame)
+TEST(LambdaPruning, OfALargeCoreWithoutCornersIsTheSame)
 {
   const VoxelShape    shape = WavySheets();
   const MedialComplex whole = CoreOf(shape);
-  const MedialComplex waits = CoreToPrune(shape);
-  ASSERT_TRUE(waits.waiting.edgeLambda.IsPacked());
-  ASSERT_TRUE(waits.edgeLambda.empty());
-  ASSERT_FALSE(waits.cells.HasCorners());
+  const MedialComplex bare = CoreToPrune(shape);
+  ASSERT_FALSE(bare.cells.HasCorners());
   for (const std::vector<double> & thresholds : { std::vector<double>{ 1.5 }, std::vector<double>{ 1.0, 1.5, 2.5 } })
   {
     const std::vector<MedialComplex> expected = PruneByLambda(whole, thresholds);
     ASSERT_LT(expected.back().cells.FaceCount(), whole.cells.FaceCount());
-    ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(MedialComplex(waits), thresholds), expected));
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(MedialComplex(bare), thresholds), expected));
   }
 }
 
-TEST(LambdaPruning, OfASmallCoreThatWaitsForItIsTheSame)
+TEST(LambdaPruning, OfACoreWithoutCornersIsTheSame)
 {
   for (const testing::RandomVolume & volume : testing::RandomVolumes(8300, 20))
   {
@@ -250,12 +247,12 @@ TEST(LambdaPruning, OfASmallCoreThatWaitsForItIsTheSame)
     const MedialComplex              whole = CoreOf(volume.shape, volume.spacing);
     const auto                       thresholds = Thresholds(whole, random);
     const std::vector<MedialComplex> expected = PruneByLambda(whole, thresholds);
-    MedialComplex                    waits = CoreToPrune(volume.shape, volume.spacing);
-    ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(waits), thresholds), expected));
+    MedialComplex                    bare = CoreToPrune(volume.shape, volume.spacing);
+    ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(bare), thresholds), expected));
   }
 }
 
-TEST(LambdaPruning, OfACoreThatWaitsInALeftHandedScanIsTheSame)
+TEST(LambdaPruning, OfACoreWithoutCornersInALeftHandedScanIsTheSame)
 {
   const VoxelShape shape = WavySheets();
   ImageGeometry    geometry;
@@ -263,28 +260,11 @@ TEST(LambdaPruning, OfACoreThatWaitsInALeftHandedScanIsTheSame)
   geometry.direction = { -1, 0, 0, 0, 1, 0, 0, 0, 1 };
   ASSERT_TRUE(IsLeftHanded(geometry));
   const MedialComplex whole = PlaceInLps(CoreOf(shape), geometry);
-  MedialComplex       waits = PlaceInLps(CoreToPrune(shape), geometry);
-  EXPECT_EQ(DescribeComplex(waits, {}).areaMm2, DescribeComplex(whole, {}).areaMm2);
-  EXPECT_EQ(DescribeComplex(waits, {}).maxRadiusMm, DescribeComplex(whole, {}).maxRadiusMm);
+  MedialComplex       bare = PlaceInLps(CoreToPrune(shape), geometry);
+  EXPECT_EQ(DescribeComplex(bare, {}).areaMm2, DescribeComplex(whole, {}).areaMm2);
+  EXPECT_EQ(DescribeComplex(bare, {}).maxRadiusMm, DescribeComplex(whole, {}).maxRadiusMm);
   const std::vector<MedialComplex> expected = PruneByLambda(whole, { 1.5 });
-  ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(waits), { 1.5 }), expected));
-}
-
-// More measures differ than one table tells.
-TEST(LambdaPruning, OfMeasuresThatCannotWaitPackedIsTheSame)
-{
-  const VoxelShape shape = WavySheets();
-  MedialComplex    whole = CoreOf(shape);
-  MedialComplex    waits = CoreToPrune(shape);
-  for (std::size_t edge = 0; edge < whole.edgeLambda.size(); ++edge)
-  {
-    whole.edgeLambda[edge] = 1.0 + static_cast<double>(edge / 6) * 1e-6;
-  }
-  waits.waiting.edgeLambda = PackedArray<double>(whole.edgeLambda);
-  ASSERT_TRUE(waits.waiting.edgeLambda.IsPacked());
-  ASSERT_FALSE(waits.waiting.edgeLambda.View());
-  const std::vector<MedialComplex> expected = PruneByLambda(whole, { 1.5 });
-  ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(waits), { 1.5 }), expected));
+  ASSERT_NO_FATAL_FAILURE(ExpectSameCores(PruneByLambda(std::move(bare), { 1.5 }), expected));
 }
 
 TEST(LambdaPruning, OnToAGreaterLambdaEqualsPruningToTheGreater)

@@ -263,26 +263,6 @@ TEST(TolerancePruning, GoesByLevelsBetweenRoundHeights)
   EXPECT_GT(low, 1000U);
 }
 
-TEST(TolerancePruning, DoesOtherWorkOnceAndPassesOnWhatItThrows)
-{
-  const VoxelShape     shape = testing::Ellipsoid(96);
-  const SpacingWeights weights = ComputeSpacingWeights({ 1, 1, 1 });
-  const auto           points = BoundaryVertices(shape);
-  DelaunayCells        cells = ComputeDelaunayCells(shape, points, weights, Engine::Auto);
-  const auto           touching = LargestTouchingBalls(shape, cells, points, weights);
-  const MedialComplex  core = BuildVoxelCore(shape, points, std::move(cells), weights);
-  ASSERT_GT(core.cells.FaceCount(), 10000U) << "too small for a second thread";
-  int        done = 0;
-  const auto alone = ComputeTolerances(core, weights, points, touching);
-  const auto beside = ComputeTolerances(core, weights, points, touching, 0, {}, [&] { ++done; });
-  EXPECT_EQ(done, 1);
-  EXPECT_EQ(alone.vertices, beside.vertices);
-  EXPECT_EQ(alone.edges, beside.edges);
-  EXPECT_EQ(alone.faces, beside.faces);
-  EXPECT_THROW(ComputeTolerances(core, weights, points, touching, 0, {}, [] { throw CertificateError("no"); }),
-               CertificateError);
-}
-
 TEST(TolerancePruning, CanBeCancelled)
 {
   const VoxelShape     shape = testing::Ellipsoid(24);

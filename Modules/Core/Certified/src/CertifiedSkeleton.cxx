@@ -240,16 +240,15 @@ PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const Skel
   return std::move(collapse).TakeLive();
 }
 
-BurnedCurves
-BurnToCurves(const MedialComplex &    core,
-             const LiveElements *     part,
-             const CertifiedShape &   shape,
-             const SkeletonRequest &  request,
-             const ProgressCallback & progress,
-             CurveOptions             curves)
+namespace
+{
+
+CurveOptions
+CurveOptionsOf(const CertifiedShape & shape, const SkeletonRequest & request)
 {
   RequireLengthsIn(shape.geometry.unit, request);
   const Vector3 & spacing = shape.geometry.spacing;
+  CurveOptions    curves;
   curves.branchThreshold = StandOutOn(shape, request);
   if (request.plates)
   {
@@ -258,11 +257,38 @@ BurnToCurves(const MedialComplex &    core,
   curves.sampling = 1.5 * *std::min_element(spacing.begin(), spacing.end());
   curves.geometry = shape.geometry;
   curves.voxel = VoxelSide(spacing);
+  return curves;
+}
+
+BurnedCurves
+Counted(CurveSkeleton curves, const CertifiedShape & shape)
+{
   BurnedCurves burned;
-  burned.curves = ComputeCurveSkeleton(core, part, curves, progress);
-  burned.topology = ComputeComplexTopology(burned.curves.complex.cells);
+  burned.topology = ComputeComplexTopology(curves.complex.cells);
+  burned.curves = std::move(curves);
   RequireEqualTopology(shape.topology, burned.topology, "its skeleton", shape.name);
   return burned;
+}
+
+} // namespace
+
+BurnedCurves
+BurnToCurves(const MedialComplex &    core,
+             const LiveElements *     part,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress)
+{
+  return Counted(ComputeCurveSkeleton(core, part, CurveOptionsOf(shape, request), progress), shape);
+}
+
+BurnedCurves
+BurnToCurves(MedialComplex &          core,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress)
+{
+  return Counted(ComputeCurveSkeleton(core, CurveOptionsOf(shape, request), progress), shape);
 }
 
 CertifiedSkeleton

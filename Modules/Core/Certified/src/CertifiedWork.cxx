@@ -5,11 +5,11 @@
 #include "InscribedThickness.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
-#include "ShelvedCore.h"
 #include "WholeCore.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/Stopwatch.h"
+#include "voxelcore/Complex/ComplexTopology.h"
 #include "voxelcore/Shape/BoundaryVertices.h"
 #include "voxelcore/VoxelCore/CoreProvenance.h"
 
@@ -82,11 +82,14 @@ public:
     m_Result.seconds.prune += watch.Lap();
     if (m_Request.skeleton)
     {
+      Stopwatch skeleton;
       if (!BurnsBeforePruning(m_Request))
       {
-        Burn(CoreToBurn());
+        m_Curves = BurnToCurves(CoreToBurn(), nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next());
       }
-      Measure();
+      m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton, m_GoesOn);
+      RequireEnclosed(m_Result.skeleton->skeleton.graph, m_Voxels, m_Result.shape);
+      m_Result.seconds.skeleton += skeleton.Lap();
     }
     if (m_Request.thickness)
     {
@@ -140,16 +143,9 @@ private:
       core.cells.FaceCount() > 10000,
       [&] { m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology); },
       [&] {
-        // All of a core that burns is counted meanwhile.
-        if (!m_Whole.topology && !BurnsWhole(m_Request))
-        {
-          m_Whole.topology = RequireTopologyOf(core.cells, m_Result.shape);
-        }
+        const TopologyNumbers counted = ComputeComplexTopology(core.cells);
+        RequireEqualTopology(m_Result.shape.topology, counted, "its core", m_Request.name);
       });
-    if (!m_Whole.topology && !BurnsWhole(m_Request))
-    {
-      RefuseResult(m_Request.name, "its core was not counted");
-    }
     if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
     {
       m_Pruned = LambdasSpendWhole() ? PruneByLambda(std::move(core), AscendingBeyond(0, m_Thresholds), prune)
@@ -306,95 +302,37 @@ private:
                               !Refines(m_Request) && std::all_of(m_Thresholds.begin(), m_Thresholds.end(), isWhole));
   }
 
-  /** What can be made again, or is asked for no more, makes room for the fire. */
-  BurnedCurves
-  BurnAndGiveBack(const MedialComplex & core, CurveOptions curves)
-  {
-    const ImageGeometry & geometry = m_Result.shape.geometry;
-    RefinementParts &     kept = m_Whole.kept;
-    ShelvedCore           shelved(*curves.spent, kept, LowestHeight(m_Request, m_Result.shape));
-    if (Refines(m_Request))
-    {
-      curves.positionsAgain = [&] {
-        MedialComplex places;
-        places.positions = shelved.Places();
-        return PlaceInLps(std::move(places), geometry).positions;
-      };
-      std::vector<LatticePoint>().swap(kept.boundary);
-    }
-    BurnedCurves burned = BurnToCurves(core, nullptr, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), curves);
-    std::move(shelved).GiveBack(*curves.spent, kept);
-    if (Refines(m_Request))
-    {
-      kept.boundary = BoundaryVertices(m_Voxels);
-    }
-    return burned;
-  }
-
-  void
-  Burn(const MedialComplex & core,
-       const LiveElements *  part = nullptr,
-       MedialComplex *       spent = nullptr,
-       bool                  givesBack = false)
-  {
-    Stopwatch  watch;
-    const auto beside = [&](const CellComplex & cells) {
-      if (!m_Whole.topology) // of all there is
-      {
-        m_Whole.topology = RequireTopologyOf(cells, m_Result.shape);
-      }
-    };
-    CurveOptions curves;
-    curves.spent = spent;
-    curves.givesBack = givesBack;
-    curves.beside = beside;
-    m_Curves = givesBack ? BurnAndGiveBack(core, curves)
-                         : BurnToCurves(core, part, m_Result.shape, *m_Request.skeleton, m_Plan.Next(), curves);
-    if (!m_Whole.topology)
-    {
-      RefuseResult(m_Request.name, "its core was not counted");
-    }
-    if (BurnsWhole(m_Request) && m_Request.skeleton->standOut.value > 0)
-    {
-      RequireNothingStandsOut(m_Curves->curves, m_Voxels, m_Result.shape, *m_Request.skeleton);
-      m_Result.standOut = true;
-    }
-    m_Result.seconds.skeleton += watch.Lap();
-  }
-
   /** Curves that know their places in the whole core: they may be refined. */
   void
   BurnBeforePruning()
   {
-    MedialComplex &       core = m_Whole.core.core.core;
-    MedialComplex * const spent = SpendsWhole() ? &core : nullptr;
+    Stopwatch               watch;
+    MedialComplex &         core = m_Whole.core.core.core;
+    const SkeletonRequest & request = *m_Request.skeleton;
     if (BurnsWhole(m_Request))
     {
-      Burn(core, nullptr, &core, !SpendsWhole());
-      return;
+      m_Curves = BurnToCurves(core, m_Result.shape, request, m_Plan.Next());
+      if (request.standOut.value > 0)
+      {
+        RequireNothingStandsOut(m_Curves->curves, m_Voxels, m_Result.shape, request);
+        m_Result.standOut = true;
+      }
     }
-    const LiveElements left = PartToBurn(core, m_Result.shape, *m_Request.skeleton);
-    if (m_Request.skeleton->tolerance)
+    else if (const LiveElements left = PartToBurn(core, m_Result.shape, request); request.tolerance)
     {
-      Burn(core, &left, spent);
-      return;
+      m_Curves = BurnToCurves(core, &left, m_Result.shape, request, m_Plan.Next());
     }
-    PartElements  part;
-    MedialComplex burns = ExtractPart(core, left, part);
-    if (spent != nullptr)
+    else
     {
-      *spent = MedialComplex();
+      PartElements  part;
+      MedialComplex burns = ExtractPart(core, left, part);
+      m_Curves = BurnToCurves(burns, m_Result.shape, request, m_Plan.Next());
+      NameInWhole(part, m_Curves->curves.inSurface);
     }
-    Burn(burns, nullptr, &burns);
-    NameInWhole(part, m_Curves->curves.inSurface);
-  }
-
-  void
-  Measure()
-  {
-    Stopwatch watch;
-    m_Result.skeleton = MeasureCurves(*m_Curves, m_Voxels, m_Result.shape, *m_Request.skeleton, m_GoesOn);
-    RequireEnclosed(m_Result.skeleton->skeleton.graph, m_Voxels, m_Result.shape);
+    if (SpendsWhole())
+    {
+      core = MedialComplex();
+    }
     m_Result.seconds.skeleton += watch.Lap();
   }
 

@@ -98,17 +98,6 @@ BurnsBeforePruning(const CertifiedRequest & request)
   return BurnsWhole(request) || (request.skeleton && (request.skeleton->tolerance || Refines(request)));
 }
 
-double
-LowestHeight(const CertifiedRequest & request, const CertifiedShape & shape)
-{
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Tolerance & height : request.tolerances)
-  {
-    lowest = std::min(lowest, DescribeTolerance(height, shape).heightMm);
-  }
-  return lowest;
-}
-
 bool
 NeedsBracket(const CertifiedRequest & request)
 {

@@ -35,10 +35,6 @@ BurnsWhole(const CertifiedRequest & request);
 bool
 BurnsBeforePruning(const CertifiedRequest & request);
 
-/** In mm the least of the tolerances, no higher than the diagonal of the body's box; infinite where there is none. */
-double
-LowestHeight(const CertifiedRequest & request, const CertifiedShape & shape);
-
 /** Whether the thickness is that of the voxels as they are, which is found while the cells are there. */
 bool
 NeedsBracket(const CertifiedRequest & request);

@@ -33,16 +33,21 @@ struct BeyondBorder
 LiveElements
 PartToBurn(const MedialComplex & whole, const CertifiedShape & shape, const SkeletonRequest & request);
 
-/** Of a part of the core, in the fire of all of it, unless that is null. Of `curves` what is spent, and what is done
- *  beside, is the caller's; lengths come from the shape and the request.
+/** Of a part of the core, in the fire of all of it, unless that is null.
  *  \throws CertificateError when the curves do not have the shape's topology; Cancelled */
 BurnedCurves
 BurnToCurves(const MedialComplex &    core,
              const LiveElements *     part,
              const CertifiedShape &   shape,
              const SkeletonRequest &  request,
-             const ProgressCallback & progress,
-             CurveOptions             curves = {});
+             const ProgressCallback & progress);
+
+/** Of all of the core, which is in another order meanwhile (ComputeCurveSkeleton()). */
+BurnedCurves
+BurnToCurves(MedialComplex &          core,
+             const CertifiedShape &   shape,
+             const SkeletonRequest &  request,
+             const ProgressCallback & progress);
 
 /** Branches, and how wide the body in `voxels` is around them; no table of them yet. Where the body `goesOn` beyond a
  *  border, they are cut in it.

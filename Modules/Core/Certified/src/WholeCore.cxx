@@ -2,19 +2,16 @@
 
 #include "CertificateText.h"
 #include "CrossCheck.h"
-#include "voxelcore/Base/PackedNumbers.h"
 #include "PruneStages.h"
 #include "RequestStages.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/Stopwatch.h"
-#include "voxelcore/Complex/ComplexTopology.h"
 #include "voxelcore/Shape/BoundaryVertices.h"
 #include "voxelcore/Shape/ShapeTopology.h"
 #include "voxelcore/Verification/Enclosure.h"
 #include "voxelcore/VoxelCore/VoxelCore.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -88,35 +85,7 @@ CellsOf(const VoxelShape &                voxels,
                               boundaryToo ? Facets::All : Facets::Inside);
 }
 
-/** Measures of edges that are not asked for wait packed meanwhile, where there are many. */
-ToleranceValues
-TolerancesOf(MedialComplex &                   core,
-             const SpacingWeights &            weights,
-             const std::vector<LatticePoint> & points,
-             TouchingBalls                     touching,
-             double                            lambdaMm,
-             const ProgressCallback &          progress,
-             const std::function<void()> &     beside)
-{
-  if (lambdaMm > 0 || core.edgeLambda.size() < kManyNumbers)
-  {
-    return ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, progress, beside);
-  }
-  PackedArray<double> edgeLambda(std::exchange(core.edgeLambda, {}));
-  ToleranceValues values = ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, progress, beside);
-  core.edgeLambda = std::move(edgeLambda).Take();
-  return values;
-}
-
 } // namespace
-
-TopologyNumbers
-RequireTopologyOf(const CellComplex & cells, const CertifiedShape & shape)
-{
-  const TopologyNumbers topology = ComputeComplexTopology(cells);
-  RequireEqualTopology(shape.topology, topology, "its core", shape.name);
-  return topology;
-}
 
 WholeCore
 MakeWholeCore(const VoxelShape &       voxels,
@@ -163,9 +132,7 @@ MakeWholeCore(const VoxelShape &       voxels,
     if (byTolerance)
     {
       // NOLINTNEXTLINE(bugprone-use-after-move): moved only where tolerance does not need them
-      core.tolerances = TolerancesOf(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"), [&] {
-        whole.topology = RequireTopologyOf(core.cells, result.shape);
-      });
+      core.tolerances = ComputeTolerances(core, weights, points, std::move(touching), lambdaMm, plan.Next("prune"));
       EndTolerances(core.tolerances, result.shape);
       seconds.prune += watch.Lap();
     }

@@ -7,18 +7,15 @@
 #include "voxelcore/Lattice/SpacingWeights.h"
 #include "voxelcore/VoxelCore/VoxelCore.h"
 
-#include <optional>
-
 namespace voxelcore
 {
 
 /** A whole core, and what must be kept of its making before the points and the cells go. */
 struct WholeCore
 {
-  CertifiedCore                  core;     ///< in LPS mm; with its tolerances where the request has some
-  std::optional<TopologyNumbers> topology; ///< once it was found to be the shape's
-  RefinementParts                kept;     ///< where there is something to refine
-  ThicknessBracket               bracket;  ///< where the request needs one
+  CertifiedCore    core;    ///< in LPS mm; with its tolerances where the request has some
+  RefinementParts  kept;    ///< where there is something to refine
+  ThicknessBracket bracket; ///< where the request needs one
 };
 
 /** Frees the points and the cells as soon as it can. Stages of `plan`: shape to tolerances. Notes in `result` what it
@@ -34,9 +31,5 @@ MakeWholeCore(const VoxelShape &       voxels,
               CoreUse                  use,
               StagePlan &              plan,
               CertifiedResult &        result);
-
-/** Counts the topology of a whole core. \throws CertificateError when it is not the shape's */
-TopologyNumbers
-RequireTopologyOf(const CellComplex & cells, const CertifiedShape & shape);
 
 } // namespace voxelcore

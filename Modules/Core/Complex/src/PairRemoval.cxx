@@ -154,7 +154,7 @@ private:
         {
           FetchFreeEdges(m_State.complex, edges.cofaces, m_Round, next, [&](ElementIndex edge) {
             FetchLine(&edges.cofaces[edge]);
-            FetchLine(edges.measure.Address(edge));
+            FetchLine(&edges.measure[edge]);
             FetchLine(&edges.after[edge]);
           });
           ConsiderEdge(m_Round[next]);

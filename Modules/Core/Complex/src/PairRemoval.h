@@ -29,13 +29,13 @@ namespace voxelcore
  *  in RemovalTimes.h. */
 struct CollapseState
 {
-  const CellComplex &    complex;
-  NumberView             vertexMeasure;
-  NumberView             edgeMeasure;
-  NumberView             faceMeasure;
-  LiveElements &         live;
-  std::vector<Cofaces> & vertexCofaces; // live ones
-  std::vector<Cofaces> & edgeCofaces;
+  const CellComplex &     complex;
+  std::span<const double> vertexMeasure;
+  std::span<const double> edgeMeasure;
+  std::span<const double> faceMeasure;
+  LiveElements &          live;
+  std::vector<Cofaces> &  vertexCofaces; // live ones
+  std::vector<Cofaces> &  edgeCofaces;
 };
 
 /** Removes the pairs below the threshold.

@@ -52,9 +52,9 @@ struct RemovalTime
  *  up after each flag that is written. */
 struct LowerElements
 {
-  NumberView measure;
-  NumberView cofaceMeasure; ///< of the elements one dimension up
-  Cofaces *  cofaces;       ///< live ones; of one that has gone as the lower of a pair: none, and the upper
+  std::span<const double> measure;
+  std::span<const double> cofaceMeasure; ///< of the elements one dimension up
+  Cofaces *               cofaces; ///< live ones; of one that has gone as the lower of a pair: none, and the upper
   ElementIndex *
     after; ///< the latest of its removers, where it can matter; once it has gone, its TimeNode, where it has one
 

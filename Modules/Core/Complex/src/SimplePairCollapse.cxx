@@ -41,10 +41,10 @@ NumbersOf(const std::vector<ElementIndex> & ids, std::size_t count)
 
 } // namespace
 
-SimplePairCollapse::SimplePairCollapse(const CellComplex & complex,
-                                       NumberView          vertexMeasure,
-                                       NumberView          edgeMeasure,
-                                       NumberView          faceMeasure)
+SimplePairCollapse::SimplePairCollapse(const CellComplex &     complex,
+                                       std::span<const double> vertexMeasure,
+                                       std::span<const double> edgeMeasure,
+                                       std::span<const double> faceMeasure)
   : m_Complex(&complex)
   , m_VertexMeasure(vertexMeasure)
   , m_EdgeMeasure(edgeMeasure)

@@ -139,46 +139,6 @@ TipsOf(const MedialComplex &              surface,
   return tips;
 }
 
-/** Frees what a surface that has been turned is no longer asked for, or what can be made again. */
-void
-FreeTurned(const CurveOptions & options)
-{
-  MedialComplex & surface = *options.spent;
-  MedialComplex   kept;
-  if (options.givesBack)
-  {
-    kept = std::move(surface);
-    kept.cells = CellComplex();
-    std::vector<double>().swap(kept.radius);
-  }
-  else
-  {
-    kept.positions = std::move(surface.positions);
-  }
-  if (options.positionsAgain)
-  {
-    std::vector<Vector3>().swap(kept.positions);
-  }
-  surface = std::move(kept);
-}
-
-void
-GiveBack(const TurnedSurface & turned, const CurveOptions & options)
-{
-  MedialComplex & surface = *options.spent;
-  if (!options.givesBack)
-  {
-    surface = MedialComplex();
-    return;
-  }
-  surface.cells = CellsBefore(turned);
-  surface.radius.resize(turned.vertices.size());
-  for (std::size_t i = 0; i < turned.vertices.size(); ++i)
-  {
-    surface.radius[turned.vertices[i]] = turned.surface.radius[i];
-  }
-}
-
 } // namespace
 
 std::size_t
@@ -187,38 +147,23 @@ CurveSkeleton::ClosedFaceCount() const
   return static_cast<std::size_t>(std::count(closedFace.begin(), closedFace.end(), std::uint8_t{ 1 }));
 }
 
-CurveSkeleton
-ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
+namespace
 {
-  return ComputeCurveSkeleton(surface, nullptr, options, progress);
-}
 
+/** `positions` are those of the surface as it was; `part` is null, or by its elements. */
 CurveSkeleton
-ComputeCurveSkeleton(const MedialComplex &    surface,
-                     const LiveElements *     part,
-                     const CurveOptions &     options,
-                     const ProgressCallback & progress)
+BurnTurned(TurnedSurface &              turned,
+           const std::vector<Vector3> & positions,
+           const LiveElements *         part,
+           const CurveOptions &         options,
+           const ProgressCallback &     progress)
 {
-  const std::size_t vertexCount = surface.cells.vertexCount;
-  const std::size_t edgeCount = surface.cells.edges.size();
-  const std::size_t faceCount = surface.cells.FaceCount();
-  TurnedSurface     turned = TurnSurface(surface, options.geometry, options.spent != nullptr);
-  if (options.spent != nullptr)
-  {
-    FreeTurned(options);
-  }
   StagePlan plan(progress, { 0.9, 0.06, 0.04 });
   BurnTimes times = ComputeBurnTimes(turned.surface, options.sampling, plan.Next());
   ReportProgress(plan.Next("collapsing"), "", 0);
   std::vector<std::uint8_t> closed;
-  double                    chord = 0;
-  LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed, [&] {
-    if (options.beside)
-    {
-      options.beside(turned.surface.cells);
-    }
-    chord = kChordInEdges * MeanEdgeLength(turned.surface);
-  });
+  const double              chord = kChordInEdges * MeanEdgeLength(turned.surface);
+  LiveElements              live = CollapseSurface(turned.surface, times, options.plateThreshold, closed);
   ReportProgress(plan.Next("curves"), "", 0);
   CurveFire             fire = BurnCurves(turned.surface, live, times.vertices, chord);
   std::vector<EndPlace> ends;
@@ -248,42 +193,23 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   // Back to the surface as it was.
   std::vector<double>().swap(times.edges);
   std::vector<double>().swap(times.faces);
-  const auto back = [](const std::vector<ElementIndex> & places, const auto & values, std::size_t count) {
-    auto result = values;
-    result.assign(count, 0);
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      result[places[i]] = values[i];
-    }
-    return result;
-  };
-  closed = back(turned.faces, closed, faceCount);
-  std::vector<ElementIndex> vertexNow(vertexCount, 0);
+  std::vector<std::uint8_t> closedBefore(turned.faces.empty() ? 0 : 1 + *std::ranges::max_element(turned.faces), 0);
+  for (std::size_t i = 0; i < turned.faces.size(); ++i)
+  {
+    closedBefore[turned.faces[i]] = closed[i];
+  }
+  std::vector<ElementIndex> vertexNow(positions.size(), 0);
   for (std::size_t i = 0; i < turned.vertices.size(); ++i)
   {
     vertexNow[turned.vertices[i]] = static_cast<ElementIndex>(i);
   }
 
   CurveSkeleton skeleton;
-  if (options.spent == nullptr)
+  skeleton.complex.cells = CellsBefore(turned, live, skeleton.inSurface);
+  for (const ElementIndex vertex : skeleton.inSurface.vertices)
   {
-    const LiveElements stays{ back(turned.vertices, live.vertices, vertexCount),
-                              back(turned.edges, live.edges, edgeCount),
-                              back(turned.faces, live.faces, faceCount) };
-    skeleton.complex = ExtractPart(surface, stays, skeleton.inSurface);
-  }
-  else
-  {
-    skeleton.complex.cells = CellsBefore(turned, live, skeleton.inSurface);
-    if (options.positionsAgain)
-    {
-      options.spent->positions = options.positionsAgain();
-    }
-    for (const ElementIndex vertex : skeleton.inSurface.vertices)
-    {
-      skeleton.complex.positions.push_back(surface.positions[vertex]);
-      skeleton.complex.radius.push_back(turned.surface.radius[vertexNow[vertex]]);
-    }
+    skeleton.complex.positions.push_back(positions[vertex]);
+    skeleton.complex.radius.push_back(turned.surface.radius[vertexNow[vertex]]);
   }
   skeleton.places = skeleton.complex.positions;
   for (const EndPlace & end : ends)
@@ -293,7 +219,7 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
     const auto     at = std::ranges::lower_bound(left, there.vertex);
     if (at != left.end() && *at == there.vertex)
     {
-      skeleton.places[static_cast<std::size_t>(at - left.begin())] = PlaceOf(there, surface.positions);
+      skeleton.places[static_cast<std::size_t>(at - left.begin())] = PlaceOf(there, positions);
     }
   }
   for (const ElementIndex vertex : skeleton.inSurface.vertices)
@@ -308,13 +234,43 @@ ComputeCurveSkeleton(const MedialComplex &    surface,
   }
   for (const ElementIndex face : skeleton.inSurface.faces)
   {
-    skeleton.closedFace.push_back(closed[face]);
-  }
-  if (options.spent != nullptr)
-  {
-    GiveBack(turned, options);
+    skeleton.closedFace.push_back(closedBefore[face]);
   }
   return skeleton;
+}
+
+} // namespace
+
+CurveSkeleton
+ComputeCurveSkeleton(const MedialComplex &    surface,
+                     const LiveElements *     part,
+                     const CurveOptions &     options,
+                     const ProgressCallback & progress)
+{
+  TurnedSurface turned = TurnSurface(surface, options.geometry);
+  return BurnTurned(turned, surface.positions, part, options, progress);
+}
+
+CurveSkeleton
+ComputeCurveSkeleton(MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
+{
+  TurnedSurface turned = TurnSurface(surface, options.geometry);
+  surface.cells = CellComplex();
+  std::vector<double>().swap(surface.radius);
+  CurveSkeleton skeleton = BurnTurned(turned, surface.positions, nullptr, options, progress);
+  surface.cells = CellsBefore(turned);
+  surface.radius.resize(turned.vertices.size());
+  for (std::size_t i = 0; i < turned.vertices.size(); ++i)
+  {
+    surface.radius[turned.vertices[i]] = turned.surface.radius[i];
+  }
+  return skeleton;
+}
+
+CurveSkeleton
+ComputeCurveSkeleton(const MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
+{
+  return ComputeCurveSkeleton(surface, nullptr, options, progress);
 }
 
 } // namespace voxelcore

@@ -114,11 +114,7 @@ KeepPart(const LiveElements & part, TurnedSurface & turned, BurnTimes & times, s
   };
   gather(kept.vertices, turned.surface.positions, turned.surface.radius, turned.vertices, times.vertices, components);
   gather(kept.edges, turned.edges, times.edges);
-  gather(kept.faces, turned.faces, times.faces);
-  if (!turned.starts.empty())
-  {
-    gather(kept.faces, turned.starts);
-  }
+  gather(kept.faces, turned.faces, turned.starts, times.faces);
 }
 
 void

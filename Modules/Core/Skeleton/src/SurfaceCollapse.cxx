@@ -204,11 +204,10 @@ CollapseInOrder(const MedialComplex &       surface,
 } // namespace
 
 LiveElements
-CollapseSurface(const MedialComplex &         surface,
-                const BurnTimes &             times,
-                double                        plateThreshold,
-                std::vector<std::uint8_t> &   closed,
-                const std::function<void()> & beside)
+CollapseSurface(const MedialComplex &       surface,
+                const BurnTimes &           times,
+                double                      plateThreshold,
+                std::vector<std::uint8_t> & closed)
 {
   const CellComplex & cells = surface.cells;
   const bool          worthIt = cells.FaceCount() > 10000;
@@ -229,32 +228,29 @@ CollapseSurface(const MedialComplex &         surface,
     live.faces[face] = 0;
     live.edges[edge] = 0;
   };
-  const auto collapse = [&] {
-    if (!hasPlates)
+  if (!hasPlates)
+  {
+    CollapseInOrder(surface, times.vertices, edgeTimes, cofaces, remove);
+    closed = live.faces;
+    return live;
+  }
+  closed.assign(cells.FaceCount(), 1);
+  EdgeCofaces besidePlates = cofaces;
+  CollapseInOrder(surface, times.vertices, edgeTimes, cofaces, [&](ElementIndex edge, ElementIndex face) {
+    closed[face] = 0;
+    const auto corners = cells.FaceVertices(face);
+    double     radius = 0;
+    for (const ElementIndex corner : corners)
     {
-      CollapseInOrder(surface, times.vertices, edgeTimes, cofaces, remove);
-      closed = live.faces;
-      return;
+      radius += surface.radius[corner];
     }
-    closed.assign(cells.FaceCount(), 1);
-    EdgeCofaces besidePlates = cofaces;
-    CollapseInOrder(surface, times.vertices, edgeTimes, cofaces, [&](ElementIndex edge, ElementIndex face) {
-      closed[face] = 0;
-      const auto corners = cells.FaceVertices(face);
-      double     radius = 0;
-      for (const ElementIndex corner : corners)
-      {
-        radius += surface.radius[corner];
-      }
-      const double thickness = times.faces[face] - radius / static_cast<double>(corners.size());
-      if (thickness < plateThreshold && besidePlates.IsFree(edge))
-      {
-        besidePlates.Remove(face);
-        remove(edge, face);
-      }
-    });
-  };
-  RunBoth(worthIt, collapse, beside);
+    const double thickness = times.faces[face] - radius / static_cast<double>(corners.size());
+    if (thickness < plateThreshold && besidePlates.IsFree(edge))
+    {
+      besidePlates.Remove(face);
+      remove(edge, face);
+    }
+  });
   return live;
 }
 

@@ -327,7 +327,7 @@ NameOfFace(const CellComplex & cells, std::size_t face, const std::vector<Elemen
 } // namespace
 
 TurnedSurface
-TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool withStarts)
+TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry)
 {
   const CellComplex & cells = surface.cells;
   Places              places = FindPlaces(surface, geometry);
@@ -407,22 +407,18 @@ TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool 
     worthIt,
     [&] { to.faceVertices.resize(cells.faceVertices.size()); },
     [&] { to.faceEdges.resize(cells.faceEdges.size()); });
-  turned.starts.resize(withStarts ? faceCount : 0);
+  turned.starts.resize(faceCount);
   RunInParts(worthIt, faceCount, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)
     {
       FetchFaces(cells, turned.faces, i, last, vertexNumber, edgeNumber);
       const std::uint64_t at = to.faceOffsets[i];
-      const std::uint32_t from = CopyFace(cells,
-                                          turned.faces[i],
-                                          vertexNumber,
-                                          edgeNumber,
-                                          to.faceVertices.data() + at,
-                                          to.faceEdges.data() + at);
-      if (withStarts)
-      {
-        turned.starts[i] = from;
-      }
+      turned.starts[i] = CopyFace(cells,
+                                  turned.faces[i],
+                                  vertexNumber,
+                                  edgeNumber,
+                                  to.faceVertices.data() + at,
+                                  to.faceEdges.data() + at);
     }
   });
   return turned;

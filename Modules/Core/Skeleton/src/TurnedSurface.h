@@ -22,14 +22,14 @@ struct TurnedSurface
   std::vector<ElementIndex> vertices; ///< per vertex its index in the surface as it was
   std::vector<ElementIndex> edges;
   std::vector<ElementIndex> faces;
-  std::vector<std::uint32_t> starts; ///< per face, where it was asked for: twice the place that its first corner had
-                                     ///< among its corners, and one more where it runs the other way round
+  std::vector<std::uint32_t> starts; ///< per face: twice the place that its first corner had among its corners, and one
+                                     ///< more where it runs the other way round
 };
 
 /** Positions of `surface` in LPS mm of `geometry`, of which spacing, origin and direction are used.
- *  `withStarts`: for CellsBefore(). \throws InputError when a position is beyond 2^31 voxels. */
+ *  \throws InputError when a position is beyond 2^31 voxels. */
 TurnedSurface
-TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry, bool withStarts = false);
+TurnSurface(const MedialComplex & surface, const ImageGeometry & geometry);
 
 /** Where a corner of a turned face, and the side behind it, are among those of the face as it was. */
 struct PlaceBefore

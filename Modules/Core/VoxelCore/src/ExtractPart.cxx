@@ -24,24 +24,22 @@ NameInWhole(const PartElements & part, PartElements & ofPart)
 namespace
 {
 
-/** take(from, waiting, ids, to) for each array of a core: `from` may be `to`. */
+/** take(from, ids, to) for each array of a core: `from` may be `to`. */
 template <typename TFrom, typename TTake>
 void
 TakeArrays(TFrom & from, const PartElements & elements, bool withTolerances, MedialComplex & to, TTake take)
 {
   const auto & [vertices, edges, faces] = elements;
-  auto & waiting = from.waiting;
-  take(from.positions, waiting.positions, vertices, to.positions);
-  take(from.radius, waiting.radius, vertices, to.radius);
-  take(from.vertexLambda, waiting.vertexLambda, vertices, to.vertexLambda);
-  take(from.edgeLambda, waiting.edgeLambda, edges, to.edgeLambda);
-  take(from.faceLambda, waiting.faceLambda, faces, to.faceLambda);
+  take(from.positions, vertices, to.positions);
+  take(from.radius, vertices, to.radius);
+  take(from.vertexLambda, vertices, to.vertexLambda);
+  take(from.edgeLambda, edges, to.edgeLambda);
+  take(from.faceLambda, faces, to.faceLambda);
   if (withTolerances)
   {
-    PackedArray<double> none;
-    take(from.tolerances.vertices, none, vertices, to.tolerances.vertices);
-    take(from.tolerances.edges, none, edges, to.tolerances.edges);
-    take(from.tolerances.faces, none, faces, to.tolerances.faces);
+    take(from.tolerances.vertices, vertices, to.tolerances.vertices);
+    take(from.tolerances.edges, edges, to.tolerances.edges);
+    take(from.tolerances.faces, faces, to.tolerances.faces);
   }
 }
 
@@ -52,12 +50,7 @@ ExtractPart(const MedialComplex & core, const LiveElements & live, PartElements 
 {
   MedialComplex part;
   part.cells = ExtractLive(core.cells, live, elements.vertices, elements.edges, elements.faces);
-  const auto gather = [](const auto & from, const auto & waiting, const std::vector<ElementIndex> & ids, auto & to) {
-    if (!waiting.IsEmpty())
-    {
-      to = waiting.Copy(ids);
-      return;
-    }
+  const auto gather = [](const auto & from, const std::vector<ElementIndex> & ids, auto & to) {
     to.reserve(ids.size());
     for (const ElementIndex id : ids)
     {
@@ -75,17 +68,7 @@ KeepPart(MedialComplex && core, const LiveElements & live)
   MedialComplex part = std::move(core);
   PartElements  elements;
   KeepLive(part.cells, live, elements.vertices, elements.edges, elements.faces);
-  const auto keep = [](auto & from, auto & waiting, const std::vector<ElementIndex> & ids, auto & to) {
-    if (waiting.IsPacked())
-    {
-      to = waiting.Copy(ids);
-      waiting = {};
-      return;
-    }
-    if (!waiting.IsEmpty())
-    {
-      from = std::move(waiting).Take();
-    }
+  const auto keep = [](auto & from, const std::vector<ElementIndex> & ids, auto & to) {
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
       to[i] = from[ids[i]];

@@ -5,7 +5,6 @@
 #include "Measures.h"
 
 #include "voxelcore/Base/Error.h"
-#include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Complex/SimplePairCollapse.h"
 #include "voxelcore/Lattice/Rational.h"
@@ -147,32 +146,6 @@ LambdaInMillimetres(const Lambda &                lambda,
 namespace
 {
 
-/** Packs what pruning does not ask for, and unpacks measures that cannot be looked up one by one. */
-void
-LetWait(MedialComplex & core)
-{
-  WaitingArrays & waiting = core.waiting;
-  RunBoth(
-    core.cells.vertexCount > kManyNumbers,
-    [&] { waiting.positions = PackedArray(std::move(core.positions), kManyNumbers); },
-    [&] { waiting.radius = PackedArray(std::move(core.radius), kManyNumbers); });
-  const auto unpack = [](PackedArray<double> & packed, std::vector<double> & values) {
-    if (!packed.IsEmpty() && !packed.View())
-    {
-      values = std::move(packed).Take();
-    }
-  };
-  unpack(waiting.vertexLambda, core.vertexLambda);
-  unpack(waiting.edgeLambda, core.edgeLambda);
-  unpack(waiting.faceLambda, core.faceLambda);
-}
-
-NumberView
-ViewOf(const std::vector<double> & values, const PackedArray<double> & waiting)
-{
-  return waiting.IsEmpty() ? NumberView(values) : *waiting.View();
-}
-
 /** `spent`: the core itself, where it may be used up. */
 std::vector<MedialComplex>
 Prune(const MedialComplex &                    core,
@@ -203,15 +176,7 @@ Prune(const MedialComplex &                    core,
     }
   };
   dropCorners(0);
-  if (spent != nullptr)
-  {
-    LetWait(*spent);
-  }
-  const WaitingArrays & waiting = core.waiting;
-  SimplePairCollapse    collapse(core.cells,
-                              ViewOf(core.vertexLambda, waiting.vertexLambda),
-                              ViewOf(core.edgeLambda, waiting.edgeLambda),
-                              ViewOf(core.faceLambda, waiting.faceLambda));
+  SimplePairCollapse collapse(core.cells, core.vertexLambda, core.edgeLambda, core.faceLambda);
   for (std::size_t i = 0; i < thresholds.size(); ++i)
   {
     const auto at = [&](std::size_t done) {

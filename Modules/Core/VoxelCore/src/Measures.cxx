@@ -324,7 +324,7 @@ MeasureHulls(const std::vector<std::uint8_t> &                 notes,
       greatest[have] = std::max(greatest[have], (have >> axis & 1U) != 0 ? ToMillimetres(sides[axis], weights) : 0.0);
     }
   }
-  result.cell = result.sphere.Copy();
+  result.cell = result.sphere;
   RunInParts(notes.size() > 10000, notes.size(), [&](std::size_t first, std::size_t last) {
     for (std::size_t cell = first; cell < last; ++cell)
     {
@@ -363,7 +363,7 @@ MeasureCells(const VoxelShape &        shape,
   std::vector<std::uint8_t> notes = std::move(cells.voxelSides);
   MeasuredCells             result;
   result.polygons = FacetPolygons(std::move(cells.facetOffsets), std::move(cells.facetPoints));
-  result.sphere = PackedArray(MeasureSpheres(points, weights, cells), kManyNumbers);
+  result.sphere = MeasureSpheres(points, weights, cells);
   // What is asked of points from here on their entries tell.
   std::vector<PointEntry> entries = MakeEntries(shape, points);
   RankLexicographically(shape, points, entries);

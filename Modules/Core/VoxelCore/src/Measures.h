@@ -4,7 +4,6 @@
 
 #include "FacetPolygons.h"
 
-#include "voxelcore/Base/PackedNumbers.h"
 #include "voxelcore/Delaunay/DelaunayCells.h"
 
 namespace voxelcore
@@ -16,7 +15,7 @@ inline constexpr std::uint32_t kBoundarySide = 0x80000000U;
 /** Radii in mm: the squared one, an exact rational, is rounded once, then turned into mm. */
 struct MeasuredCells
 {
-  PackedArray<double>       sphere;       ///< per cell: radius of its empty sphere
+  std::vector<double>       sphere;       ///< per cell: radius of its empty sphere
   std::vector<double>       cell;         ///< per cell: of the smallest ball enclosing its points
   std::vector<double>       facet;        ///< per facet inside: of the smallest ball enclosing its points
   FacetPolygons             polygons;     ///< of the facets inside

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <functional>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -144,8 +143,7 @@ ComputeTolerances(const MedialComplex &             core,
                   const std::vector<LatticePoint> & points,
                   TouchingBalls                     touching,
                   double                            floor,
-                  const ProgressCallback &          progress,
-                  const std::function<void()> &     beside)
+                  const ProgressCallback &          progress)
 {
   const CellComplex &   cells = core.cells;
   const BallCentre      scale = ScaleOf(weights);
@@ -179,10 +177,6 @@ ComputeTolerances(const MedialComplex &             core,
       std::vector<WeighedPlace>().swap(touched.places);
       std::vector<std::uint32_t>().swap(touching.offsets);
       std::vector<std::uint32_t>().swap(touching.touched);
-      if (beside) // loose ends take longer than fire
-      {
-        beside();
-      }
     },
     [&] {
       LooseEnds ends(cells, left, points, scale, touching.weights, touching.largest, levels, balls);

@@ -4,8 +4,6 @@
 #include "Measures.h"
 
 #include "voxelcore/Base/Error.h"
-#include "voxelcore/Base/PackedNumbers.h"
-#include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Shape/BoundaryVertices.h"
 
 namespace voxelcore
@@ -32,33 +30,11 @@ BuildVoxelCore(const VoxelShape &        shape,
   }
   // Facets are sorted by their cells, so the edges come out in canonical order.
   core.cells.edges = std::move(cells.facetCells);
-  // While faces are made nobody asks for the rest.
-  WaitingArrays waiting;
-  const bool    worthIt = core.cells.edges.size() > kManyNumbers;
-  RunBoth(
-    worthIt,
-    [&] { waiting.positions = PackedArray(std::move(cells.centres), kManyNumbers); },
-    [&] {
-      waiting.edgeLambda = PackedArray(std::move(measured.facet), kManyNumbers);
-      waiting.vertexLambda = PackedArray(std::move(measured.cell), kManyNumbers);
-    });
+  core.positions = std::move(cells.centres);
+  core.radius = std::move(measured.sphere);
+  core.edgeLambda = std::move(measured.facet);
+  core.vertexLambda = std::move(measured.cell);
   WriteFaces(std::move(measured.polygons), std::move(measured.sortedPoints), weights, use, core);
-  if (use == CoreUse::Pruning)
-  {
-    core.positions = std::move(waiting.positions).Take();
-    core.radius = std::move(measured.sphere).Take();
-    waiting.faceLambda = PackedArray(std::move(core.faceLambda), kManyNumbers);
-    core.waiting = std::move(waiting);
-    return core;
-  }
-  RunBoth(
-    worthIt,
-    [&] { core.positions = std::move(waiting.positions).Take(); },
-    [&] {
-      core.edgeLambda = std::move(waiting.edgeLambda).Take();
-      core.vertexLambda = std::move(waiting.vertexLambda).Take();
-      core.radius = std::move(measured.sphere).Take();
-    });
   return core;
 }
 

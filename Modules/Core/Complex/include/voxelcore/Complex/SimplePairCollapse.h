@@ -1,10 +1,10 @@
 #pragma once
 // Topology-preserving removal of simple pairs in order of a measure (paper, section 4, step 3; Liu et al. 2010).
 
-#include "voxelcore/Base/PackedNumbers.h"
 #include "voxelcore/Base/Progress.h"
 #include "voxelcore/Complex/CellComplex.h"
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,10 +29,10 @@ class SimplePairCollapse
 {
 public:
   /** Measures in any unit, one per element, none NaN. */
-  SimplePairCollapse(const CellComplex & complex,
-                     NumberView          vertexMeasure,
-                     NumberView          edgeMeasure,
-                     NumberView          faceMeasure);
+  SimplePairCollapse(const CellComplex &     complex,
+                     std::span<const double> vertexMeasure,
+                     std::span<const double> edgeMeasure,
+                     std::span<const double> faceMeasure);
 
   /** Removes all pairs below the threshold, which must not decrease from call to call.
    *  \throws Cancelled when the callback says so. */
@@ -55,13 +55,13 @@ public:
   }
 
 private:
-  const CellComplex *  m_Complex;
-  NumberView           m_VertexMeasure;
-  NumberView           m_EdgeMeasure;
-  NumberView           m_FaceMeasure;
-  LiveElements         m_Live;
-  std::vector<Cofaces> m_VertexCofaces; // live ones
-  std::vector<Cofaces> m_EdgeCofaces;
+  const CellComplex *     m_Complex;
+  std::span<const double> m_VertexMeasure;
+  std::span<const double> m_EdgeMeasure;
+  std::span<const double> m_FaceMeasure;
+  LiveElements            m_Live;
+  std::vector<Cofaces>    m_VertexCofaces; // live ones
+  std::vector<Cofaces>    m_EdgeCofaces;
 };
 
 /** The live part as a complex of its own; the order of elements is kept.

@@ -9,7 +9,6 @@
 #include "voxelcore/VoxelCore/MedialComplex.h"
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -31,17 +30,6 @@ struct CurveOptions
   ImageGeometry geometry; ///< of the scan, for the axes and the lattice that its turning on the grid leaves alike
 
   double voxel = 0; ///< side of the cube with a voxel's diagonal: by about so much shapes end beyond their last ball
-
-  /** The surface, where nobody needs it meanwhile: its cells and radii are freed, so that their memory serves the fire.
-   *  The complex of the skeleton then has no measures. */
-  MedialComplex * spent = nullptr;
-  bool            givesBack = false; ///< the surface is made as it was in the end; else it is used up. Not of a part
-
-  /** Gives the surface's positions once more: where it is set, and the surface is spent, they are freed meanwhile. */
-  std::function<std::vector<std::array<double, 3>>()> positionsAgain;
-
-  /** Other work on the surface's cells, in another order, for a second thread while they collapse. */
-  std::function<void(const CellComplex & cells)> beside;
 };
 
 /** A part of a medial surface that the surface collapses to: vertices, edges, and the faces that stay. */
@@ -74,6 +62,11 @@ CurveSkeleton
 ComputeCurveSkeleton(const MedialComplex &    surface,
                      const CurveOptions &     options,
                      const ProgressCallback & progress = {});
+
+/** The same, with the surface's cells and radii in memory once: they are in another order meanwhile, and come back to
+ *  the bit. What is thrown leaves a surface without them. */
+CurveSkeleton
+ComputeCurveSkeleton(MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress = {});
 
 /** The curves of the surface followed into a part of it that pruning has left: burn times are those of all of it, and
  *  each end is the part's place nearest to one of its ends, as the ragged rim of what is left is no end. Without a

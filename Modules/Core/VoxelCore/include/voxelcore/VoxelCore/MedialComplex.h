@@ -1,7 +1,6 @@
 #pragma once
 // The voxel core as a complex with geometry: what every later stage works on.
 
-#include "voxelcore/Base/PackedNumbers.h"
 #include "voxelcore/Complex/CellComplex.h"
 
 #include <array>
@@ -17,16 +16,6 @@ struct ToleranceValues
   std::vector<double> vertices;
   std::vector<double> edges;
   std::vector<double> faces;
-};
-
-/** What a core holds in little memory until it has been pruned by lambda; the arrays of these names are empty then. */
-struct WaitingArrays
-{
-  PackedArray<std::array<double, 3>> positions;
-  PackedArray<double>                radius;
-  PackedArray<double>                vertexLambda;
-  PackedArray<double>                edgeLambda;
-  PackedArray<double>                faceLambda;
 };
 
 /** A voxel core or a part of it. Canonical order: vertices by exact centre, edges and faces by their sorted vertex
@@ -45,7 +34,6 @@ struct MedialComplex
   std::vector<double>                edgeLambda;   ///< radius measure in mm
   std::vector<double>                faceLambda;   ///< radius measure in mm
   ToleranceValues                    tolerances;   ///< empty where they were not asked for
-  WaitingArrays                      waiting;      ///< mostly none
 
   bool
   HasTolerances() const

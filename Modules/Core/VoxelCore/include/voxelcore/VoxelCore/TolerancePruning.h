@@ -19,7 +19,6 @@
 #include "voxelcore/Shape/VoxelShape.h"
 #include "voxelcore/VoxelCore/MedialComplex.h"
 
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -105,16 +104,15 @@ LargestTouchingBalls(const VoxelShape &                shape,
  *  Costs are made of +, -, *, / and sqrt of canonical doubles in a fixed order. Within a level fire comes in waves,
  *  each in the order in which the one before freed its edges; loose ends follow the burnt edges. Fire does not ask for
  *  them, so that they may follow in a second thread: the same bits on every machine, for every engine and thread
- *  count, and for a volume that is cropped or padded. `beside` is other work for that second thread.
- *  \throws Cancelled when the callback says so, and what `beside` throws. */
+ *  count, and for a volume that is cropped or padded.
+ *  \throws Cancelled when the callback says so */
 ToleranceValues
 ComputeTolerances(const MedialComplex &             core,
                   const SpacingWeights &            weights,
                   const std::vector<LatticePoint> & points,
                   TouchingBalls                     touching,
                   double                            floor = 0,
-                  const ProgressCallback &          progress = {},
-                  const std::function<void()> &     beside = {});
+                  const ProgressCallback &          progress = {});
 
 /** What is left at a height in mm of a core that has its heights (MedialComplex::tolerances). */
 LiveElements

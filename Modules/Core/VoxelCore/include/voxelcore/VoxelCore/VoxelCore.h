@@ -11,7 +11,7 @@ namespace voxelcore
 enum class CoreUse
 {
   Any,
-  Pruning ///< by lambda, and then it is used up: without corners, and measures wait packed where there are many
+  Pruning ///< by lambda, and then it is used up: without the corners of its faces, which its edges tell
 };
 
 /** The core as the dual of the Delaunay cells inside the shape (Definition 3.2): a vertex per cell, an edge per inner
