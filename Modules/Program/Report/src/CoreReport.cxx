@@ -237,7 +237,7 @@ NoteRefinedAt(ParameterRecord & parameters)
 }
 
 std::string
-ReportJson(const CoreReport & report)
+ReportJson(const CoreReport & report, const std::optional<ReportMember> & further)
 {
   Json                 json = WholeJson(report, false);
   const StageSeconds & seconds = report.seconds;
@@ -253,6 +253,10 @@ ReportJson(const CoreReport & report)
   json["seconds"]["write"] = Milliseconds(seconds.write);
   json["seconds"]["total"] = Milliseconds(seconds.total);
   json["peak_memory_mb"] = std::round(report.peakMemoryMb * 10) / 10;
+  if (further)
+  {
+    json[further->name] = KeysInUnit(Json::parse(further->json), report.input.geometry.unit);
+  }
   std::string text;
   Indent(json, "", text);
   return text + "\n";

@@ -388,11 +388,10 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
                 RootsPage(result, volume, remarks, draws ? std::optional(options.prefix) : std::nullopt));
   result.report.seconds.total = total.Lap();
   result.report.peakMemoryMb = PeakMemoryMb();
-  std::string json = ReportJson(result.report);
-  json.replace(json.rfind("\n}"),
-               std::string::npos,
-               RootsJson(result.model, result.topology, volume, RootEditsJson(editing.edits)));
-  WriteTextFile(transaction.Stage(options.Place("report.json")), json);
+  const std::string edits = RootEditsJson(editing.edits);
+  WriteTextFile(
+    transaction.Stage(options.Place("report.json")),
+    ReportJson(result.report, ReportMember{ "roots", RootsJson(result.model, result.topology, volume, edits) }));
   Finish(transaction, context);
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace voxelcore
@@ -13,69 +14,54 @@ namespace voxelcore
 namespace
 {
 
-std::string
-JsonNumber(double value)
-{
-  char text[40];
-  (void)std::snprintf(text, sizeof(text), "%.9g", value);
-  return std::isfinite(value) ? text : "null";
-}
-
-std::string
-BettiJson(const TopologyNumbers & numbers)
-{
-  const auto & betti = numbers.betti;
-  return "[" + std::to_string(betti[0]) + "," + std::to_string(betti[1]) + "," + std::to_string(betti[2]) + "]";
-}
+using Json = nlohmann::ordered_json;
 
 /** Grey levels, and what persists over them. */
-std::string
+Json
 LevelsJson(const GreyLevels & levels)
 {
-  std::string json = ",\n      \"levels\": {\n        \"shape\": " + JsonNumber(levels.shape) +
-                     ",\n        \"kernel\": " + JsonNumber(levels.kernel) +
-                     ",\n        \"neighborhood\": " + JsonNumber(levels.neighbourhood) +
-                     ",\n        \"background\": " + JsonNumber(levels.background) +
-                     ",\n        \"bright\": " + JsonNumber(levels.bright) +
-                     ",\n        \"otsu\": " + JsonNumber(levels.otsu) +
-                     ",\n        \"valley\": " + JsonNumber(levels.valley) + ",\n        \"tried\": [";
-  for (std::size_t i = 0; i < levels.tried.size(); ++i)
+  Json json{ { "shape", levels.shape },           { "kernel", levels.kernel }, { "neighborhood", levels.neighbourhood },
+             { "background", levels.background }, { "bright", levels.bright }, { "otsu", levels.otsu },
+             { "valley", levels.valley },         { "tried", Json::array() } };
+  for (const auto & tried : levels.tried)
   {
-    json += std::string(i > 0 ? "," : "") + "\n          { \"level\": " + JsonNumber(levels.tried[i].level) +
-            ", \"betti\": " + BettiJson(levels.tried[i].numbers) + " }";
+    json["tried"].push_back({ { "level", tried.level }, { "betti", tried.numbers.betti } });
   }
-  return json + (levels.tried.empty() ? "]" : "\n        ]") + "\n      }";
+  return json;
 }
 
 /** Where the length of the skeleton is. */
-std::string
+Json
 BalanceJson(const RootBalance & balance)
 {
-  return "{ \"skeleton\": " + JsonNumber(balance.skeleton) + ", \"roots\": " + JsonNumber(balance.roots) +
-         ", \"within_parents\": " + JsonNumber(balance.within) + ", \"shared\": " + JsonNumber(balance.shared) +
-         ", \"bridged\": " + JsonNumber(balance.bridged) + ", \"bridges\": " + JsonNumber(balance.bridges) +
-         ", \"removed\": " + JsonNumber(balance.removed) + ", \"bulges\": " + JsonNumber(balance.bulges) + " }";
+  return { { "skeleton", balance.skeleton }, { "roots", balance.roots },     { "within_parents", balance.within },
+           { "shared", balance.shared },     { "bridged", balance.bridged }, { "bridges", balance.bridges },
+           { "removed", balance.removed },   { "bulges", balance.bulges } };
 }
 
 /** What was cut and filled. */
-std::string
+Json
 TopologyJson(const RootsTopology & topology)
 {
-  std::string json = ",\n    \"topology\": {\n      \"before\": " + BettiJson(topology.before) +
-                     ",\n      \"after\": " + BettiJson(topology.after) +
-                     ",\n      \"as_asked\": " + (topology.asAsked ? "true" : "false") +
-                     (topology.asAsked ? std::string() : ",\n      \"reason\": \"" + topology.reason + "\"") +
-                     (topology.levels ? LevelsJson(*topology.levels) : std::string()) + ",\n      \"changes\": [";
-  for (std::size_t i = 0; i < topology.parts.size(); ++i)
+  Json json{ { "before", topology.before.betti }, { "after", topology.after.betti }, { "as_asked", topology.asAsked } };
+  if (!topology.asAsked)
   {
-    const RootsChange & change = topology.parts[i];
-    json += std::string(i > 0 ? "," : "") + "\n        { \"kind\": \"" + (change.isFill ? "fill" : "cut") +
-            "\", \"place\": [" + JsonNumber(change.centre[0]) + ", " + JsonNumber(change.centre[1]) + ", " +
-            JsonNumber(change.centre[2]) + "], \"voxels\": " + std::to_string(change.voxels) +
-            ", \"cost\": " + JsonNumber(change.cost) + ", \"difference\": [" + std::to_string(change.difference[0]) +
-            "," + std::to_string(change.difference[1]) + "," + std::to_string(change.difference[2]) + "] }";
+    json["reason"] = topology.reason;
   }
-  return json + (topology.parts.empty() ? "]" : "\n      ]") + "\n    }";
+  if (topology.levels)
+  {
+    json["levels"] = LevelsJson(*topology.levels);
+  }
+  json["changes"] = Json::array();
+  for (const RootsChange & change : topology.parts)
+  {
+    json["changes"].push_back({ { "kind", change.isFill ? "fill" : "cut" },
+                                { "place", change.centre },
+                                { "voxels", change.voxels },
+                                { "cost", change.cost },
+                                { "difference", change.difference } });
+  }
+  return json;
 }
 
 } // namespace
@@ -87,24 +73,28 @@ RootsJson(const RootModel &                    model,
           const std::string &                  edits)
 {
   const RootTraits & traits = model.traits;
-  std::string        json =
-    ",\n  \"roots\": {\n    \"up\": \"" + UpText(model.roots.up) +
-    "\",\n    \"up_found\": " + (model.roots.upFound ? "true" : "false") +
-    ",\n    \"axes\": " + std::to_string(model.roots.axes.size()) +
-    ",\n    \"stems\": " + std::to_string(traits.stems) +
-    ",\n    \"total_length\": " + JsonNumber(traits.levels.empty() ? 0 : traits.levels.back().totalLength) +
-    ",\n    \"whorls\": " + std::to_string(traits.whorls) + ",\n    \"balance\": " + BalanceJson(traits.balance) +
-    ",\n    \"plant\": " + PlantJson(model, volume) + ",\n    \"edits\": " + edits + ",\n    \"contacts\": [";
-  for (std::size_t i = 0; i < model.roots.meetings.size(); ++i)
+  Json               json{ { "up", UpText(model.roots.up) },
+             { "up_found", model.roots.upFound },
+             { "axes", model.roots.axes.size() },
+             { "stems", traits.stems },
+             { "total_length", traits.levels.empty() ? 0 : traits.levels.back().totalLength },
+             { "whorls", traits.whorls },
+             { "balance", BalanceJson(traits.balance) },
+             { "plant", Json::parse(PlantJson(model, volume)) },
+             { "edits", Json::parse(edits) },
+             { "contacts", Json::array() } };
+  for (const RootMeeting & meeting : model.roots.meetings)
   {
-    const RootMeeting & meeting = model.roots.meetings[i];
-    json += std::string(i > 0 ? "," : "") + "\n      { \"place\": [" + JsonNumber(meeting.position[0]) + ", " +
-            JsonNumber(meeting.position[1]) + ", " + JsonNumber(meeting.position[2]) +
-            "], \"radius\": " + JsonNumber(meeting.radius) + ", \"margin\": " + JsonNumber(meeting.margin) +
-            ", \"undecided\": " + (meeting.undecided ? "true" : "false") + " }";
+    json["contacts"].push_back({ { "place", meeting.position },
+                                 { "radius", meeting.radius },
+                                 { "margin", meeting.margin },
+                                 { "undecided", meeting.undecided } });
   }
-  json += model.roots.meetings.empty() ? "]" : "\n    ]";
-  return json + (topology ? TopologyJson(*topology) : std::string()) + "\n  }\n}\n";
+  if (topology)
+  {
+    json["topology"] = TopologyJson(*topology);
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string

@@ -9,8 +9,7 @@
 namespace voxelcore
 {
 
-/** The part of the report that is about roots; goes before the last brace of the core's. `volume`: of the voxels,
- *  mm^3; `edits`: as JSON. */
+/** The report's member about roots, as JSON. `volume`: of the voxels, mm^3; `edits`: as JSON. */
 std::string
 RootsJson(const RootModel &                    model,
           const std::optional<RootsTopology> & topology,

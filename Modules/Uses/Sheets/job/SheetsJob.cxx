@@ -78,7 +78,8 @@ public:
     report.peakMemoryMb = PeakMemoryMb();
     if (m_Options.core.report)
     {
-      WriteTextFile(m_Transaction.Stage(*m_Options.core.report), WithSheets(ReportJson(report)));
+      WriteTextFile(m_Transaction.Stage(*m_Options.core.report),
+                    ReportJson(report, ReportMember{ "sheets", SheetsJson() }));
     }
     Finish(m_Transaction, m_Context);
     return std::move(m_Result);
@@ -264,7 +265,7 @@ private:
   }
 
   std::string
-  WithSheets(std::string report) const
+  SheetsJson() const
   {
     Json all = Json::array();
     for (std::size_t i = 0; i < m_Result.totals.size(); ++i)
@@ -288,9 +289,7 @@ private:
       }
       all.push_back(std::move(one));
     }
-    const std::string text = KeysInUnit(all, m_Result.model.unit).dump(2, ' ', false, Json::error_handler_t::replace);
-    report.replace(report.rfind("\n}"), std::string::npos, ",\n  \"sheets\": " + text + "\n}\n");
-    return report;
+    return all.dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 
   const SheetsOptions &    m_Options;

@@ -95,7 +95,7 @@ public:
     if (m_Options.core.report)
     {
       WriteTextFile(m_Transaction.Stage(*m_Options.core.report),
-                    WithThickness(ReportJson(report), m_Result, m_Options));
+                    ReportJson(report, ReportMember{ "thickness", ThicknessJson(m_Result, m_Options) }));
     }
     Finish(m_Transaction, m_Context);
     return std::move(m_Result);

@@ -107,7 +107,7 @@ Summarize(const CertifiedThickness & found,
 }
 
 std::string
-WithThickness(std::string report, const ThicknessResult & result, const ThicknessOptions & options)
+ThicknessJson(const ThicknessResult & result, const ThicknessOptions & options)
 {
   Json all = Json::array();
   for (const ThicknessRecord & record : result.thickness)
@@ -148,10 +148,7 @@ WithThickness(std::string report, const ThicknessResult & result, const Thicknes
     }
     all.push_back(std::move(one));
   }
-  const std::string text =
-    KeysInUnit(all, result.report.input.geometry.unit).dump(2, ' ', false, Json::error_handler_t::replace);
-  report.replace(report.rfind("\n}"), std::string::npos, ",\n  \"thickness\": " + text + "\n}\n");
-  return report;
+  return all.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string

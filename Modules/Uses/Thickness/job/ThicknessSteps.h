@@ -11,8 +11,8 @@
 namespace voxelcore
 {
 
-/** The report with what was measured as its last member. */
+/** What was measured, for the report: a list with a record for each label, and for the separation. */
 std::string
-WithThickness(std::string report, const ThicknessResult & result, const ThicknessOptions & options);
+ThicknessJson(const ThicknessResult & result, const ThicknessOptions & options);
 
 } // namespace voxelcore

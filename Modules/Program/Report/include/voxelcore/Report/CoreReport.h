@@ -155,10 +155,17 @@ VoxelCoreVersion();
 std::string
 VersionText();
 
-/** The report as indented JSON with a final newline. Keys stand in a fixed order. Of a scan without voxel size they
- *  name voxels ("area_vox2"), and "unit" is "voxel". */
+/** What a use adds to a report: a value as JSON. Keys of lengths end in _mm, as those of the report do. */
+struct ReportMember
+{
+  std::string name;
+  std::string json;
+};
+
+/** The report as indented JSON with a final newline, a further member at its end. Keys stand in a fixed order. Of a
+ *  scan without voxel size they name voxels ("area_vox2"), and "unit" is "voxel". */
 std::string
-ReportJson(const CoreReport & report);
+ReportJson(const CoreReport & report, const std::optional<ReportMember> & further = {});
 
 /** The part of a report that goes into the file holding these labels (positions in report.labels) with result number
  *  `which`: without times, memory, threads, paths, command, engine and output, on one line. It names only what
