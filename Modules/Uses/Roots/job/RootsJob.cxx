@@ -282,47 +282,56 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
     core.edits.simplify.reset();
     core.edits.topology = {};
   }
-  CleanMask clean = LookAtScan(core, options.asIs, result.notes);
-  if (clean.edited.labels.size() != 1)
+  auto [scan, plain] = LookAtScan(core, options.asIs, result.notes);
+  if (scan.edited.labels.size() != 1)
   {
-    throw UsageError(options.scan.string() + ": " + std::to_string(clean.edited.labels.size()) +
+    throw UsageError(options.scan.string() + ": " + std::to_string(scan.edited.labels.size()) +
                      " labels; choose one with --labels, or take all as one with --binary");
   }
   RootRules rules = options.rules;
-  rules.tornSlack = std::ranges::max(clean.geometry.spacing);
+  rules.tornSlack = std::ranges::max(scan.volume.geometry.spacing);
   if (cuts)
   {
-    result.topology = TellRootsApart(clean.edited.labels.front().label,
-                                     clean.geometry,
+    result.topology = TellRootsApart(scan.edited.labels.front().label,
+                                     scan.volume.geometry,
                                      core,
                                      rules,
-                                     { depth, request, options.kernel, options.neighbourhood, clean.scan },
+                                     { depth, request, options.kernel, options.neighbourhood, BorderOf(scan.volume) },
                                      editing,
                                      PartOfProgress(context.progress, 0, 0.35));
   }
   if (result.topology)
   {
     core.edits.change = result.topology->changes;
+    EditedLabel & label = scan.edited.labels.front();
+    label.edits = label.edits.value_or(EditRecord());
+    label.edits->changed = { result.topology->voxelsAdded, result.topology->voxelsRemoved };
     (result.topology->asAsked ? result.notes : result.warnings).push_back(RootsTopologyText(*result.topology));
   }
-  clean = {};
+  if (plain)
+  {
+    // So that who reads the scan by what is recorded gets the same mask.
+    core.edits.change = ChangesBetween(*plain, scan.edited.labels.front().label.shape);
+    plain.reset();
+  }
   LabelShape    mask;
   ImageGeometry geometry;
   JobContext    part = context;
   part.progress = PartOfProgress(context.progress, 0.35, draws ? 0.75 : 0.95);
-  CoreResult staged = StageCoreJob(core,
-                                   transaction,
-                                   part,
-                                   false,
-                                   [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
-                                     mask = labels.front().label;
-                                     geometry = where;
-                                   });
+  CoreResult staged = StageCoreJob(
+    core,
+    transaction,
+    part,
+    false,
+    [&](const std::vector<EditedLabel> & labels, const ImageGeometry & where) {
+      mask = labels.front().label;
+      geometry = where;
+    },
+    &scan);
   result.report = std::move(staged.report);
   result.warnings.insert(result.warnings.end(), staged.warnings.begin(), staged.warnings.end());
   result.notes.insert(result.notes.end(), staged.notes.begin(), staged.notes.end());
 
-  SkeletonModel skeleton = ReadSkeletonVtp(StagedName(transaction, core.skeletonOutput));
   result.model.name = ScanName(options.scan);
   result.model.unit = result.report.input.geometry.unit;
   std::vector<double> torn;
@@ -335,6 +344,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   }
   else
   {
+    SkeletonModel skeleton = ReadSkeletonVtp(StagedName(transaction, core.skeletonOutput));
     result.model.graph = std::move(skeleton.parts.at(0).graph);
     result.model.roots = FindRootsByGrey(mask.shape, geometry, core, rules, depth, editing, result.model.graph, torn);
     if (result.topology)

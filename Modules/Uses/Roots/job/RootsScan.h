@@ -1,7 +1,7 @@
 #pragma once
 // The mask of a root system, from a scan of labels or of grey values, cleaned.
 
-#include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Jobs/CoreJobSteps.h"
 
 #include <optional>
 #include <string>
@@ -11,15 +11,14 @@ namespace voxelcore
 {
 
 /** A mask as it is before roots are told apart. */
-struct CleanMask
+struct RootsScan
 {
-  ImageGeometry           geometry;
-  std::optional<VoxelBox> scan; ///< what was read; none of a mesh
-  EditedLabels            edited;
+  ScanAtHand                scan;
+  std::optional<VoxelShape> plain; ///< what `options.edits` alone make of the scan, where clefts were filled besides
 };
 
 /** Chooses the threshold of grey values that come without one, and how hollows are filled. */
-CleanMask
+RootsScan
 LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes);
 
 } // namespace voxelcore

@@ -3,6 +3,7 @@
 
 #include "voxelcore/Jobs/CoreJob.h"
 #include "voxelcore/Jobs/OutputTransaction.h"
+#include "voxelcore/Jobs/ReadInput.h"
 
 #include <functional>
 #include <vector>
@@ -14,16 +15,25 @@ namespace voxelcore
 void
 CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction);
 
+/** A scan that was read, and its labels as `options.edits` says, or as they were edited further. */
+struct ScanAtHand
+{
+  InputScan    volume;
+  EditedLabels edited;
+};
+
 /** Called once with the labels that are worked on, before their shapes are used up. */
 using ShapesSeen = std::function<void(const std::vector<EditedLabel> & labels, const ImageGeometry & geometry)>;
 
 /** RunCoreJob up to the moment at which its files get their names. CheckCoreTargets comes first. With `labelByLabel`,
- *  into a folder, those of each label get theirs when it is done, and labels that are done are passed over. */
+ *  into a folder, those of each label get theirs when it is done, and labels that are done are passed over.
+ *  With `scan` nothing is read; it is used up. */
 CoreResult
 StageCoreJob(const CoreOptions & options,
              OutputTransaction & transaction,
              const JobContext &  context,
              bool                labelByLabel = false,
-             const ShapesSeen &  seen = {});
+             const ShapesSeen &  seen = {},
+             ScanAtHand *        scan = nullptr);
 
 } // namespace voxelcore
