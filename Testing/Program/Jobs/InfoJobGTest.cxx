@@ -131,8 +131,17 @@ TEST_F(InfoJob, AGreyScanIsToldUnlessTheUserSaysWhatItIs)
   ASSERT_TRUE(info.grey.has_value());
   EXPECT_TRUE(info.labels.empty());
   EXPECT_FALSE(info.core || info.skeleton || info.page) << "nothing is foretold of what is no label";
-  EXPECT_NE(InfoText(info).find("--threshold " + OtsuRange(*info.grey)), std::string::npos);
-  EXPECT_NE(InfoJson(info).find(OtsuRange(*info.grey)), std::string::npos);
+  EXPECT_NE(InfoText(info).find("--threshold " + ProposedRange(*info.grey)), std::string::npos);
+  EXPECT_NE(InfoJson(info).find(ProposedRange(*info.grey)), std::string::npos);
+  ASSERT_EQ(info.proposals.size(), 2U);
+  for (const GreyProposal & one : info.proposals)
+  {
+    // What is said of a threshold is what it gives.
+    const ScanInfo taken = Info("grey.nrrd", { { "threshold", std::to_string(one.threshold) + ":inf" } });
+    ASSERT_EQ(taken.labels.size(), 1U) << one.name;
+    EXPECT_EQ(taken.labels[0].voxels, one.voxels) << one.name;
+    EXPECT_EQ(taken.labels[0].topology, one.topology) << one.name;
+  }
   EXPECT_FALSE(Info("grey.nrrd", { { "threshold", "100:inf" } }).grey);
   EXPECT_FALSE(Info("grey.nrrd", { { "binary", "true" } }).grey);
 }

@@ -70,6 +70,38 @@ TEST_F(VerifyJob, OptionsAreThoseRecordedInTheFile)
   EXPECT_TRUE(Verify("a.nrrd", "core.vtp").passed);
 }
 
+TEST_F(VerifyJob, TheMaskOfAGreyScanMayStandForIt)
+{
+  // A grey ball in noise, its mask by threshold as a scan of its own, and another mask.
+  constexpr int kSide = 24;
+  std::string   head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 24 24 24\nspacings: 1 1 1\nencoding: raw\n\n";
+  std::string   grey = head;
+  std::string   mask = head;
+  std::string   other = head;
+  std::uint32_t state = 1;
+  for (int i = 0; i < kSide * kSide * kSide; ++i)
+  {
+    const int  x = i % kSide - 12;
+    const int  y = i / kSide % kSide - 12;
+    const int  z = i / kSide / kSide - 12;
+    const bool isIn = x * x + y * y + z * z < 64;
+    state = state * 1664525U + 1013904223U;
+    grey += static_cast<char>((isIn ? 140 : 20) + (state >> 24U) % 40);
+    mask += static_cast<char>(isIn ? 1 : 0);
+    other += static_cast<char>(x * x + y * y + z * z < 49 ? 1 : 0);
+  }
+  WriteAll(At("grey.nrrd"), grey);
+  WriteAll(At("mask.nrrd"), mask);
+  WriteAll(At("other.nrrd"), other);
+  Core("core.vtp", { { "scan", At("grey.nrrd") }, { "threshold", "100:inf" } });
+  EXPECT_TRUE(Verify("grey.nrrd", "core.vtp").passed);
+  const VerifyResult result = Verify("mask.nrrd", "core.vtp");
+  EXPECT_TRUE(result.passed) << VerifyText(result);
+  ASSERT_FALSE(result.notes.empty());
+  EXPECT_NE(result.notes.front().find("taken as the mask itself"), std::string::npos) << result.notes.front();
+  EXPECT_FALSE(Verify("other.nrrd", "core.vtp").passed);
+}
+
 TEST_F(VerifyJob, AnotherScanFailsAndThatItIsAnotherIsSaid)
 {
   Phantom("ball", "a.nrrd", "16");

@@ -92,7 +92,7 @@ TEST_F(GreyScans, OfABallInNoiseAreFoundWithAThresholdThatCutsItOut)
     ASSERT_EQ(grey->edges.size(), grey->counts.size() + 1);
     // What is proposed is the ball.
     ReadOptions       chosen;
-    const std::string range = OtsuRange(*grey);
+    const std::string range = ProposedRange(*grey);
     EXPECT_TRUE(range.ends_with(":inf")) << range;
     chosen.threshold = { std::stod(range), INFINITY };
     const double expected = 4.0 / 3.0 * 3.14159265 * 14 * 14 * 14;

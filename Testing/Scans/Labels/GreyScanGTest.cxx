@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <utility>
 
 namespace voxelcore::testing
 {
@@ -37,7 +38,7 @@ Look(const std::vector<T> & values)
   return {};
 }
 
-TEST(GreyScan, TheHalfwayThresholdFindsAHundredthOfTheVoxelsThatOtsuMisses)
+TEST(GreyScan, TheProposalFindsAHundredthOfTheVoxelsThatOtsuMisses)
 {
   std::mt19937                     random(5);
   std::normal_distribution<double> noise(0, 80);
@@ -47,7 +48,7 @@ TEST(GreyScan, TheHalfwayThresholdFindsAHundredthOfTheVoxelsThatOtsuMisses)
     values.push_back((i % 100 == 0 ? 3000 : 1000) + noise(random));
   }
   std::sort(values.begin(), values.end());
-  EXPECT_NEAR(HalfwayThreshold(values), 2000, 60);
+  EXPECT_NEAR(ProposedThreshold(values), 2000, 60);
   // Air around a pot, soil that is brighter, and roots: what is half of the voxels is background itself.
   values.clear();
   for (int i = 0; i < 200000; ++i)
@@ -55,28 +56,91 @@ TEST(GreyScan, TheHalfwayThresholdFindsAHundredthOfTheVoxelsThatOtsuMisses)
     values.push_back((i % 100 == 0 ? 3000 : i % 5 < 3 ? 0 : 1000) + noise(random));
   }
   std::sort(values.begin(), values.end());
-  EXPECT_NEAR(HalfwayThreshold(values), 2000, 60);
-  EXPECT_EQ(HalfwayThreshold(std::vector<double>{ 7, 7, 7 }), 7);
+  EXPECT_NEAR(ProposedThreshold(values), 2000, 60);
+  EXPECT_EQ(ProposedThreshold(std::vector<double>{ 7, 7, 7 }), 7);
 }
 
-TEST(GreyScan, TheHalfwayThresholdIsHalfwayWhereNoiseReachesBeyondIt)
+/** Values of a scan, those of the object apart. */
+struct KnownScan
 {
-  for (const unsigned seed : { 1U, 2U, 3U })
+  std::vector<double> others;
+  std::vector<double> object;
+};
+
+/** Dice overlap of what is at or above a threshold with the object. */
+double
+DiceAt(const KnownScan & scan, double threshold)
+{
+  const auto above = [&](const std::vector<double> & values) {
+    return static_cast<double>(std::ranges::count_if(values, [&](double value) { return value >= threshold; }));
+  };
+  const double right = above(scan.object);
+  return 2 * right / (right + above(scan.others) + static_cast<double>(scan.object.size()));
+}
+
+/** The proposal, and how far its Dice is below that of the best of 400 thresholds. */
+std::pair<double, double>
+OffBest(const KnownScan & scan)
+{
+  std::vector<double> values = scan.others;
+  values.insert(values.end(), scan.object.begin(), scan.object.end());
+  std::sort(values.begin(), values.end());
+  const double proposed = ProposedThreshold(values);
+  double       best = 0;
+  for (int i = 0; i <= 400; ++i)
   {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    std::mt19937        random(seed);
-    std::vector<double> values;
-    // Half of the contrast is 3.1 deviations of the noise, as in a poor scan; a third of the bright voxels are partial.
-    std::normal_distribution<double>       noise(0, 320);
-    std::uniform_real_distribution<double> part(0.3, 1);
-    for (int i = 0; i < 400000; ++i)
-    {
-      const double root = i % 200 != 0 ? 0 : i % 600 == 0 ? part(random) : 1;
-      values.push_back(1000 + 2000 * root + noise(random));
-    }
-    std::sort(values.begin(), values.end());
-    EXPECT_NEAR(HalfwayThreshold(values), 2000, 100);
+    best = std::max(best, DiceAt(scan, values.front() + i * (values.back() - values.front()) / 400));
   }
+  return { proposed, best - DiceAt(scan, proposed) };
+}
+
+TEST(GreyScan, TheProposalIsNearTheBestWhateverTheObjectsShareAndTheNoise)
+{
+  constexpr unsigned firstSeed = 7;
+  std::cout << "seeds from " << firstSeed << '\n';
+  unsigned seed = firstSeed;
+  for (const double share : { 0.002, 0.02, 0.2, 0.5, 0.7 })
+  {
+    for (const double contrast : { 4.5, 6.0, 20.0 }) // in deviations of the noise
+    {
+      std::mt19937                           random(seed++);
+      std::normal_distribution<double>       noise(0, 2000 / contrast);
+      std::uniform_real_distribution<double> unit(0, 1);
+      KnownScan                              scan;
+      for (int i = 0; i < 400000; ++i)
+      {
+        // A tenth of the object's voxels are at its boundary, and as many others.
+        const bool   isObject = unit(random) < share;
+        const bool   isPartial = unit(random) < 0.1 * (isObject ? 1 : share / (1 - share));
+        const double part = 0.5 * unit(random);
+        const double level = isObject ? (isPartial ? 0.5 + part : 1) : isPartial ? part : 0;
+        (isObject ? scan.object : scan.others).push_back(std::round(8000 + 2000 * level + noise(random)));
+      }
+      const auto [proposed, off] = OffBest(scan);
+      EXPECT_LT(off, 0.02) << "share " << share << ", contrast " << contrast << ", seed " << seed - 1 << ": "
+                           << proposed;
+    }
+  }
+}
+
+TEST(GreyScan, PaddingAirAndClippedNoiseAreNoBackground)
+{
+  std::mt19937                     random(11);
+  std::normal_distribution<double> noise(0, 30);
+  KnownScan                        pot;
+  KnownScan                        clipped;
+  for (int i = 0; i < 300000; ++i)
+  {
+    const bool isRoot = i % 150 == 0;
+    // A third padding, a quarter air, the rest soil.
+    const double level = isRoot ? 1500 : i % 3 == 0 ? 0 : i % 4 == 0 ? 200 : 900;
+    (isRoot ? pot.object : pot.others).push_back(level == 0 ? 0 : std::round(level + noise(random)));
+    (isRoot ? clipped.object : clipped.others)
+      .push_back(std::max(0.0, std::round((isRoot ? 250 : 20) + noise(random))));
+  }
+  EXPECT_LT(OffBest(pot).second, 0.02) << OffBest(pot).first;
+  EXPECT_NEAR(OffBest(pot).first, 1200, 150);
+  EXPECT_LT(OffBest(clipped).second, 0.02) << OffBest(clipped).first;
 }
 
 /** A dark and a bright class, both noisy. */
@@ -194,12 +258,12 @@ TEST(GreyScan, TextsNameValuesAndRange)
   grey.distinct = 1290;
   grey.lowest = -1024;
   grey.highest = 0.1;
-  grey.otsu = 15;
+  grey.proposed = 15;
   EXPECT_EQ(GreyScanText(grey),
             "looks like a grey scan (1290 values from -1024 to 0.1, neighbouring voxels are rarely equal)");
-  EXPECT_EQ(OtsuRange(grey), "15:inf");
-  grey.otsu = -0.0625;
-  EXPECT_EQ(OtsuRange(grey), "-0.0625:inf");
+  EXPECT_EQ(ProposedRange(grey), "15:inf");
+  grey.proposed = -0.0625;
+  EXPECT_EQ(ProposedRange(grey), "-0.0625:inf");
   grey.distinct = 65536; // as far as they are counted
   EXPECT_NE(GreyScanText(grey).find("(more than 65536 values"), std::string::npos);
 }

@@ -69,7 +69,7 @@ TEST_F(RootsJob, AGreyScanGivesItsRootsWithoutAnyOption)
   EXPECT_LT(result.model.traits.levels.back().totalLength, length);
   EXPECT_GT(result.model.traits.levels.back().totalLength, 0.85 * length);
   ASSERT_FALSE(result.notes.empty());
-  EXPECT_NE(result.notes.front().find("halfway between background and roots"), std::string::npos);
+  EXPECT_NE(result.notes.front().find("the one that 'voxelcore info' proposes"), std::string::npos);
   const auto threshold = result.report.parameters.reading.threshold;
   ASSERT_TRUE(threshold);
   EXPECT_NEAR(threshold->first, (kRootScanAir + kRootScanRoot) / 2.0, 0.05 * (kRootScanRoot - kRootScanAir));

@@ -315,8 +315,7 @@ private:
     // The scan is the last of the files.
     const double files = static_cast<double>(m_Sources.files.size());
     StagePlan    plan(PartOfProgress(m_Progress, files / (files + 1), 1), { 1, 1, 1 });
-    ReadOptions  reading = RecordedReading(m_Report->parameters);
-    LabelMap volume = ReadScanOrMesh(*m_Sources.scan, reading, m_Report->parameters.resolution, plan.Next("reading"));
+    LabelMap     volume = ReadScanAgain(*m_Sources.scan, m_Report->parameters, notes, plan.Next("reading"));
     warnings = volume.warnings;
     RequireSameUnit(m_Sources.files.front(), m_Report->input.geometry.unit, *m_Sources.scan, volume.geometry.unit);
     EditedLabels           edited = EditLabels(std::move(volume.labels),

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <omp.h>
@@ -79,9 +80,49 @@ HistogramText(const GreyScan & grey)
 std::string
 GreyText(const ScanInfo & info)
 {
-  return "\n" + GreyScanText(*info.grey) + "\n\n" + HistogramText(*info.grey) +
-         "\nchoose a range, for example --threshold " + OtsuRange(*info.grey) +
-         " (Otsu); give --labels all if its values are labels\n";
+  std::vector<std::vector<std::string>> rows{
+    { "threshold", "", "voxels", "of all %", "pieces", "loops", "cavities" }
+  };
+  const auto all = static_cast<double>(info.geometry.size[0]) * static_cast<double>(info.geometry.size[1]) *
+                   static_cast<double>(info.geometry.size[2]);
+  for (const GreyProposal & one : info.proposals)
+  {
+    const auto & [pieces, loops, cavities] = one.topology.betti;
+    rows.push_back({ ShortText(one.threshold, 6) + ":inf",
+                     one.name,
+                     std::to_string(one.voxels),
+                     ShortText(100 * static_cast<double>(one.voxels) / all, 3),
+                     std::to_string(pieces),
+                     std::to_string(loops),
+                     std::to_string(cavities) });
+  }
+  return "\n" + GreyScanText(*info.grey) + "\n\n" + HistogramText(*info.grey) + "\n" + FormatTable(rows) +
+         "\ngive --threshold " + ProposedRange(*info.grey) +
+         ", or another range; give --labels all if its values are labels\n";
+}
+
+/** What a threshold would make of a grey scan, which is read once more. */
+GreyProposal
+Propose(const InfoOptions & options, const std::string & name, double threshold)
+{
+  GreyProposal proposal{ name, threshold, 0, {} };
+  ReadOptions  reading = options.reading;
+  reading.threshold = std::pair(threshold, std::numeric_limits<double>::infinity());
+  reading.refuseGrey = false;
+  InputScan          scan = ReadScanOrMesh(options.scan, reading, options.resolution);
+  const EditedLabels edited =
+    EditLabels(std::move(scan.labels), scan.geometry, options.edits, false, options.scan.string());
+  for (const EditedLabel & one : edited.labels) // with components apart there are several
+  {
+    const TopologyNumbers topology = ComputeShapeTopology(one.label.shape);
+    proposal.voxels += one.label.voxels;
+    proposal.topology.euler += topology.euler;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      proposal.topology.betti[k] += topology.betti[k];
+    }
+  }
+  return proposal;
 }
 
 } // namespace
@@ -165,6 +206,12 @@ RunInfoJob(const InfoOptions & options, const JobContext & given)
   info.threads = omp_get_max_threads();
   if (info.grey)
   {
+    for (const auto & [name, threshold] :
+         { std::pair("proposed", info.grey->proposed), std::pair("by Otsu", info.grey->otsu) })
+    {
+      info.proposals.push_back(Propose(options, name, threshold));
+    }
+    ReportProgress(context.progress, "done", 1);
     return info;
   }
   const std::vector<BoundaryCounts> boundaries = CountBoundaries(edited.labels);
@@ -341,11 +388,20 @@ InfoJson(const ScanInfo & info)
   json["labels"] = labels;
   if (info.grey)
   {
+    Json proposals = Json::array();
+    for (const GreyProposal & one : info.proposals)
+    {
+      proposals.push_back({ { "name", one.name },
+                            { "threshold", one.threshold },
+                            { "voxels", one.voxels },
+                            { "betti", one.topology.betti } });
+    }
     json["grey"] = { { "values", info.grey->distinct },
                      { "lowest", info.grey->lowest },
                      { "highest", info.grey->highest },
                      { "otsu", info.grey->otsu },
-                     { "threshold", OtsuRange(*info.grey) },
+                     { "threshold", ProposedRange(*info.grey) },
+                     { "proposals", proposals },
                      { "histogram", { { "edges", info.grey->edges }, { "voxels", info.grey->counts } } } };
   }
   json = KeysInUnit(json, info.geometry.unit);

@@ -1,6 +1,7 @@
 #include "voxelcore/Jobs/ReadInput.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/ItkReader/ForeignFormats.h"
 #include "voxelcore/Jobs/JobTools.h"
@@ -166,11 +167,11 @@ ReadScanOrMesh(const std::filesystem::path &       path,
     if (resolution)
     {
       throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
-                       " is none");
+                       " is none; leave it out");
     }
     if (options.cap)
     {
-      throw UsageError("--cap: is for meshes, and " + path.string() + " is none");
+      throw UsageError("--cap: is for meshes, and " + path.string() + " is none; leave it out");
     }
     return { ReadLabelVolume(path, options, progress), {} };
   }
@@ -179,7 +180,7 @@ ReadScanOrMesh(const std::filesystem::path &       path,
       options.niftiForm != "auto")
   {
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
-                     "about reading only --resolution, --spacing and --cap are for meshes");
+                     "about reading give only --resolution, --spacing and --cap");
   }
   MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, options.cap, progress);
   return { std::move(made.volume), std::move(made.mesh) };
@@ -222,6 +223,63 @@ RecordedReading(const ParameterRecord & parameters)
     }
   }
   return reading;
+}
+
+namespace
+{
+
+/** Makes of how a grey scan was read how its mask is, if the scan is one: a single label, 1. */
+bool
+ReadAsMask(const std::filesystem::path & path, ParameterRecord & parameters)
+{
+  ParameterRecord ofMask = parameters;
+  ofMask.reading.threshold.reset();
+  ofMask.labels = { 1 };
+  ofMask.edits = {};
+  ofMask.edits.splitComponents = parameters.edits.splitComponents;
+  ReadOptions all = RecordedReading(ofMask);
+  all.labels = "all";
+  all.refuseGrey = true;
+  try
+  {
+    const LabelMap found = ReadLabelVolume(path, all);
+    if (found.labels.size() != 1 || found.labels.front().value != 1)
+    {
+      return false;
+    }
+  }
+  catch (const InputError &)
+  {
+    return false; // what was wrong with it as a grey scan is told
+  }
+  parameters = std::move(ofMask);
+  return true;
+}
+
+} // namespace
+
+InputScan
+ReadScanAgain(const std::filesystem::path & path,
+              ParameterRecord &             parameters,
+              std::vector<std::string> &    notes,
+              const ProgressCallback &      progress)
+{
+  try
+  {
+    return ReadScanOrMesh(path, RecordedReading(parameters), parameters.resolution, progress);
+  }
+  catch (const InputError &)
+  {
+    const auto threshold = parameters.reading.threshold;
+    if (!threshold || parameters.resolution || !ReadAsMask(path, parameters))
+    {
+      throw;
+    }
+    notes.push_back(path.string() + ": taken as the mask itself: it has the label 1 alone, and no value within " +
+                    RoundTripText(threshold->first) + ":" + RoundTripText(threshold->second) +
+                    ", by which the mask was made; edits are in it");
+  }
+  return ReadScanOrMesh(path, RecordedReading(parameters), {}, progress);
 }
 
 } // namespace voxelcore

@@ -150,11 +150,11 @@ Compare(const VoxelShape & rebuilt, const VoxelShape & scan, const Balls & balls
 /** The scan's labels as they were when the core was made. */
 std::vector<LabelShape>
 ReadScanLabels(const std::filesystem::path & scan,
-               const CoreReport &            made,
+               CoreReport &                  made,
                std::vector<std::string> &    warnings,
                const ProgressCallback &      progress)
 {
-  LabelMap volume = ReadScanOrMesh(scan, RecordedReading(made.parameters), made.parameters.resolution, progress);
+  LabelMap volume = ReadScanAgain(scan, made.parameters, warnings, progress);
   warnings.insert(warnings.end(), volume.warnings.begin(), volume.warnings.end());
   if (volume.geometry.size != made.input.geometry.size)
   {
@@ -214,7 +214,7 @@ CheckTargets(const ReconstructOptions & options, OutputTransaction & transaction
 {
   if (options.like && options.scan)
   {
-    throw UsageError("--like and --scan exclude each other: what is compared with a scan is made on its grid");
+    throw UsageError("give only one of --like and --scan: what is compared with a scan is made on its grid");
   }
   for (const auto & input : { std::optional(options.core), options.like, options.scan })
   {
@@ -241,7 +241,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   CheckTargets(options, transaction);
   ReportProgress(context.progress, "reading", 0);
   const MedialModel model = ReadModel(options.core, Precision::AsSaved);
-  const CoreReport  made = ParseProvenance(model.provenance, options.core.string());
+  CoreReport        made = ParseProvenance(model.provenance, options.core.string());
   RequireFittingProvenance(made.labels.size() == model.parts.size(), options.core);
   ReconstructResult result;
   WarnOfRounding(options.core, model.rounded, result.warnings);
@@ -295,7 +295,7 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
     if (options.scan && place == scan.end())
     {
       throw InputError(options.scan->string() + ": label " + std::to_string(value) + " of " + options.core.string() +
-                       " does not occur in this scan");
+                       " does not occur in this scan; give the scan it was made from");
     }
     if (one.voxels == 0)
     {
@@ -313,7 +313,9 @@ RunReconstructJob(const ReconstructOptions & options, const JobContext & given)
   }
   if (labels.empty())
   {
-    throw InputError(options.core.string() + ": no voxel's centre lies in its balls, so the volume would be empty");
+    throw InputError(
+      options.core.string() +
+      ": no voxel's centre lies in its balls, so the volume would be empty; give a finer grid with --like");
   }
   ReportProgress(context.progress, "writing", 0.9);
   WriteLabelVolume(transaction.StageWithCompanions(options.output), result.geometry, labels);

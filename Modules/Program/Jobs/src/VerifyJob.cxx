@@ -7,6 +7,7 @@
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/Jobs/ReadInput.h"
+#include "voxelcore/Models/SkeletonModel.h"
 #include "voxelcore/Report/Sha256.h"
 #include "voxelcore/Shape/BodyFrame.h"
 #include "voxelcore/Shape/BoundaryVertices.h"
@@ -200,7 +201,7 @@ VerifyModel(MedialModel              model,
     {
       throw InputError(names.scan.string() + ": label " + std::to_string(value) +
                        (component > 0 ? ", component " + std::to_string(component) + "," : std::string()) + " of " +
-                       names.core.string() + " does not occur in this scan");
+                       names.core.string() + " does not occur in this scan; give the scan it was made from");
     }
     LabelShape * const found = &place->label;
     const double       from = 0.1 + 0.9 * static_cast<double>(i) / static_cast<double>(model.parts.size());
@@ -255,19 +256,52 @@ VerifyModel(MedialModel              model,
   return result;
 }
 
+namespace
+{
+
+/** The medial surface; of a skeleton it is said where that is checked. */
+MedialModel
+ReadSurface(const std::filesystem::path & path)
+{
+  try
+  {
+    return ReadModel(path);
+  }
+  catch (const InputError &)
+  {
+    bool isSkeleton = true;
+    try
+    {
+      (void)ReadSkeletonVtp(path);
+    }
+    catch (const InputError &)
+    {
+      isSkeleton = false;
+    }
+    if (!isSkeleton)
+    {
+      throw;
+    }
+  }
+  throw InputError(path.string() +
+                   ": is a skeleton, which is checked in the run that makes it, against the voxels: see " +
+                   "'certificate' in the report of 'voxelcore skeleton --report'; here give a medial surface of " +
+                   "'voxelcore core'");
+}
+
+} // namespace
+
 VerifyResult
 RunVerifyJob(const VerifyOptions & options, const JobContext & given)
 {
   const JobContext context = ForwardOnly(given);
   ReportProgress(context.progress, "reading", 0);
-  MedialModel              model = ReadModel(options.core);
+  MedialModel              model = ReadSurface(options.core);
   const bool               vtkReads = RequireVtkReads(options.core, model);
-  const CoreReport         made = ParseProvenance(model.provenance, options.core.string());
-  InputScan                volume = ReadScanOrMesh(options.scan,
-                                    RecordedReading(made.parameters),
-                                    made.parameters.resolution,
-                                    PartOfProgress(context.progress, "reading", 0, 0.05));
+  CoreReport               made = ParseProvenance(model.provenance, options.core.string());
   std::vector<std::string> notes;
+  InputScan                volume =
+    ReadScanAgain(options.scan, made.parameters, notes, PartOfProgress(context.progress, "reading", 0, 0.05));
   if (!vtkReads)
   {
     notes.push_back(options.core.string() +

@@ -103,7 +103,7 @@ GreyTest::Describe() const
   grey.lowest = values.front();
   grey.highest = values.back();
   grey.otsu = Rounded(OtsuThreshold(values));
-  grey.half = Rounded(HalfwayThreshold(values));
+  grey.proposed = Rounded(ProposedThreshold(values));
   // Bins between the 0.1st and 99.9th percentile, the outer ones open: a speck of metal must not flatten the rest.
   const auto at = [&](double share) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
@@ -126,51 +126,10 @@ GreyTest::Describe() const
   return grey;
 }
 
-double
-HalfwayThreshold(std::span<const double> sorted)
-{
-  if (sorted.empty())
-  {
-    return 0;
-  }
-  const auto at = [](std::span<const double> part, double share) {
-    return part[static_cast<std::size_t>(share * static_cast<double>(part.size() - 1))];
-  };
-  const auto above = [](std::span<const double> part, double value) {
-    return part.subspan(static_cast<std::size_t>(std::upper_bound(part.begin(), part.end(), value) - part.begin()));
-  };
-  std::span<const double> part = sorted;
-  for (;;)
-  {
-    const double background = at(part, 0.5);
-    const double deviation = background - at(part, 0.1587);
-    const double least = background + 5 * deviation;
-    const auto   brighter = above(part, least);
-    if (brighter.empty())
-    {
-      return sorted.back();
-    }
-    if (static_cast<double>(brighter.size()) > 0.3 * static_cast<double>(sorted.size()))
-    {
-      part = brighter;
-      continue;
-    }
-    // Noise may reach beyond half of what is bright: above three deviations it is still a seldom thing.
-    const double lowest = background + 3 * deviation;
-    double       threshold = least;
-    for (int i = 0; i < 20; ++i)
-    {
-      const auto bright = above(part, threshold);
-      threshold = bright.empty() ? threshold : std::max(lowest, (background + at(bright, 0.75)) / 2);
-    }
-    return threshold;
-  }
-}
-
 std::string
-OtsuRange(const GreyScan & grey)
+ProposedRange(const GreyScan & grey)
 {
-  return Number(grey.otsu) + ":inf";
+  return Number(grey.proposed) + ":inf";
 }
 
 std::string

@@ -298,8 +298,9 @@ RefuseGrey(const StoredVoxels & scan, const GreyTest & test)
                                    ": ",
                                    GreyScanText(grey),
                                    "; choose a range with --threshold LO:HI, for example --threshold ",
-                                   OtsuRange(grey),
-                                   " (Otsu), or give --labels all if its values are labels");
+                                   ProposedRange(grey),
+                                   ", of which 'voxelcore info' says what it gives, or give --labels all if its values "
+                                   "are labels");
   throw GreyScanError(message, std::move(grey));
 }
 

@@ -45,7 +45,7 @@ public:
     m_Text.assign(std::istreambuf_iterator<char>(file), {});
     if (!file)
     {
-      throw InputError(path.string() + ": cannot read this file");
+      throw InputError(path.string() + ": cannot read this file; check its name and permissions");
     }
   }
 
@@ -251,7 +251,7 @@ EditsOf(const std::vector<RootAnnotation> & annotations,
     if (found == kNoRoot)
     {
       throw InputError(path.string() + ": " + one.where +
-                       ": no root ends there; is the file of this scan, and were the options the same?");
+                       ": no root ends there; give the file that was made of this scan with these options");
     }
     return found;
   };
@@ -260,7 +260,8 @@ EditsOf(const std::vector<RootAnnotation> & annotations,
   {
     if (one.number && !byNumber.emplace(*one.number, &one).second)
     {
-      throw InputError(path.string() + ": " + one.where + ": root " + std::to_string(*one.number) + " stands twice");
+      throw InputError(path.string() + ": " + one.where + ": root " + std::to_string(*one.number) +
+                       " stands twice; keep one");
     }
   }
   std::vector<RootEdit> edits;

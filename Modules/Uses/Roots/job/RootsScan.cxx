@@ -140,11 +140,10 @@ LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
   }
   catch (const GreyScanError & error)
   {
-    core.reading.threshold = std::pair(error.grey.half, std::numeric_limits<double>::infinity());
+    core.reading.threshold = std::pair(error.grey.proposed, std::numeric_limits<double>::infinity());
     core.reading.refuseGrey = false;
-    notes.push_back(
-      core.scan.string() + ": " + GreyScanText(error.grey) + "; threshold " + RoundTripText(error.grey.half) +
-      ":inf, halfway between background and roots (Otsu: " + OtsuRange(error.grey) + "); for another give --threshold");
+    notes.push_back(core.scan.string() + ": " + GreyScanText(error.grey) + "; threshold " + ProposedRange(error.grey) +
+                    ", the one that 'voxelcore info' proposes; for another give --threshold");
     volume = ReadScanOrMesh(core.scan, core.reading, core.resolution);
   }
   const auto edit = [&](std::vector<LabelShape> labels, const ShapeEditOptions & edits) {

@@ -129,7 +129,7 @@ private:
     const ElementIndex before = m_Is[what];
     if (next == before)
     {
-      throw UsageError("root " + std::to_string(which) + " would go on from itself");
+      throw UsageError("root " + std::to_string(which) + " would go on from itself; name another");
     }
     BeginNear(next, before);
     RootAxis &        first = m_Axes[before];
@@ -203,7 +203,7 @@ private:
         m_IsGone[i] = m_IsGone[i] != 0 || m_IsGone[m_Axes[stem].parent] != 0 ? 1 : 0;
         if (static_cast<std::size_t>(++axis.level) > count)
         {
-          throw UsageError("root " + std::to_string(i) + " would spring from itself");
+          throw UsageError("root " + std::to_string(i) + " would spring from itself; name another");
         }
       }
       axis.stem = stem;

@@ -46,17 +46,27 @@ struct LabelInfo
   CostPrediction  cost; ///< of its core alone
 };
 
+/** What a threshold would make of a grey scan. */
+struct GreyProposal
+{
+  std::string     name;
+  double          threshold = 0; ///< and brighter
+  std::uint64_t   voxels = 0;
+  TopologyNumbers topology; ///< of the voxel shape, as LabelInfo::topology
+};
+
 struct ScanInfo
 {
-  std::string              path;
-  std::string              format;
-  std::string              pixelType;
-  ImageGeometry            geometry;
-  std::string              orientation; ///< OrientationLetters()
-  std::vector<std::string> notes;
-  std::vector<std::string> warnings;
-  std::vector<LabelInfo>   labels;
-  std::optional<GreyScan>  grey; ///< where the scan is no label volume: then there are no labels
+  std::string               path;
+  std::string               format;
+  std::string               pixelType;
+  ImageGeometry             geometry;
+  std::string               orientation; ///< OrientationLetters()
+  std::vector<std::string>  notes;
+  std::vector<std::string>  warnings;
+  std::vector<LabelInfo>    labels;
+  std::optional<GreyScan>   grey;      ///< where the scan is no label volume: then there are no labels
+  std::vector<GreyProposal> proposals; ///< of a grey scan, the best first
   // What jobs over all labels need with their defaults; nothing of a grey scan.
   std::optional<CostPrediction> core; ///< into one file
   std::optional<CostPrediction> skeleton;

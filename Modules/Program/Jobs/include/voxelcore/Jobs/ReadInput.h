@@ -72,6 +72,15 @@ BorderOf(const InputScan & scan);
 ReadOptions
 RecordedReading(const ParameterRecord & parameters);
 
+/** The scan that a file was made from, read as it was then. Where that was a grey scan with a threshold and `path` is
+ *  the mask that came of it, such as the one `roots` writes, it is taken as it is: `parameters` then tell of neither
+ *  threshold nor edits, which are in it, and a note says so. 	hrows as ReadScanOrMesh */
+InputScan
+ReadScanAgain(const std::filesystem::path & path,
+              ParameterRecord &             parameters,
+              std::vector<std::string> &    notes,
+              const ProgressCallback &      progress = {});
+
 /** "256,512": numbers of voxels, each once. \throws UsageError */
 std::vector<std::int64_t>
 ParseResolutions(const std::string & text);

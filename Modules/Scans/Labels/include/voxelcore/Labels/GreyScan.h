@@ -19,24 +19,25 @@ struct GreyScan
   double                     equal = 0;    ///< of neighbours, the share that are equal; median over the values
   double                     lowest = 0;   ///< value; of all voxels
   double                     highest = 0;
-  double                     otsu = 0; ///< threshold of Otsu (1979): the brighter class begins here
-  double                     half = 0; ///< HalfwayThreshold()
-  std::vector<double>        edges{};  ///< of the histogram's bins
-  std::vector<std::uint64_t> counts{}; ///< of the voxels looked at, one less than edges
+  double                     proposed = 0; ///< ProposedThreshold(), with four digits
+  double                     otsu = 0;     ///< threshold of Otsu (1979): the brighter class begins here
+  std::vector<double>        edges{};      ///< of the histogram's bins
+  std::vector<std::uint64_t> counts{};     ///< of the voxels looked at, one less than edges
 };
 
-/** Halfway between a scan's background and what little is brighter in it, such as roots, which Otsu's method misses
- *  when they are a hundredth of the voxels. The background is the median; what lies five standard deviations above it
- *  (by the dark side) is brighter, and counts as its upper quartile. Where that is more than 0.3 of the voxels, it is
- *  looked at in the same way by itself: then the dark is the air around a pot, say. With strong noise the halfway value
- *  may lie below five deviations; it is never below three. Values in ascending order; their last where nothing is
- *  brighter. */
+/** The threshold that makes a shape of what is brighter than the background, however little it is, of values in
+ *  ascending order: halfway between the two levels, and higher where noise of the background would come along, as gives
+ *  the greatest expected Dice overlap with what is truly there. Padding, and air around what holds the object, are no
+ *  background. Where nothing stands out, four deviations above all. 0 of no values.
+ *
+ *  Levels and noise are by the histogram alone, so that an object of a few ten thousandths of the voxels is found where
+ *  noise leaves it, and one of half of them is cut where its boundary is. */
 double
-HalfwayThreshold(std::span<const double> sorted);
+ProposedThreshold(std::span<const double> sorted);
 
-/** "15:inf": what --threshold takes to choose the brighter class. */
+/** "15:inf": what --threshold takes for the threshold proposed. */
 std::string
-OtsuRange(const GreyScan & grey);
+ProposedRange(const GreyScan & grey);
 
 /** "looks like a grey scan (1290 values from 1 to 1300, neighbouring voxels are rarely equal)" */
 std::string

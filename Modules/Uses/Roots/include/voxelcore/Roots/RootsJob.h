@@ -97,7 +97,7 @@ UpText(const Vector3 & up);
 void
 CleanForRoots(ShapeEditOptions & edits);
 
-/** Reads, proposes a threshold where grey values come without one (HalfwayThreshold), cleans, cuts roots apart where
+/** Reads, proposes a threshold where grey values come without one (ProposedThreshold), cleans, cuts roots apart where
  *  they touch so that pieces, loops and cavities are as few as can be or as asked for, computes a certified medial
  *  surface and skeleton, finds the roots, measures them. Writes into the folder: mask.nrrd, medial.vtp, skeleton.vtp,
  *  roots.rsml, roots.swc, roots.graphml, roots.csv, levels.csv, plant.csv, profile.csv, columns.json, changes.txt
