@@ -10,8 +10,8 @@ set -euo pipefail
 packages_of() {
   case "$1" in
     build) echo g++ cmake ninja-build ccache libvtk9-dev libtet1.5-dev libtiff-dev libpng-dev zlib1g-dev libbz2-dev \
-                 libblosc-dev libzstd-dev libexpat1-dev libinsighttoolkit5-dev libhdf5-dev libx11-dev libzip-dev \
-                 libmeshoptimizer-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
+                 libblosc-dev libzstd-dev libexpat1-dev libjpeg-dev libinsighttoolkit5-dev libhdf5-dev libx11-dev \
+                 libzip-dev libmeshoptimizer-dev libssl-dev libjs-three libboost-dev libcli11-dev nlohmann-json3-dev ;;
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     wheel) echo g++ cmake ninja-build ccache libpng-dev zlib1g-dev libbz2-dev libblosc-dev libzstd-dev libexpat1-dev \
                 libssl-dev libboost-dev libcli11-dev nlohmann-json3-dev pybind11-dev python3-dev \

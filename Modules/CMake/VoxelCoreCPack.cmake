@@ -45,7 +45,8 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
 # The program's package holds what reads DICOM and others through ITK.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-vtk9, voxelcore")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtiff-dev, libpng-dev, zlib1g-dev, libbz2-dev, libblosc-dev")
-string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libzstd-dev, libexpat1-dev, libssl-dev, libvtk9-dev")
+string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libzstd-dev, libexpat1-dev, libjpeg-dev, libssl-dev")
+string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libvtk9-dev")
 if(VOXELCORE_TETGEN)
   string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libtet1.5-dev")
 endif()

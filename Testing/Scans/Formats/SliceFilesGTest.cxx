@@ -53,7 +53,7 @@ TEST_F(SliceFiles, PatternsStandForNumbersOfTheirWidthAndMore)
   EXPECT_EQ(Found("a*1*"), "a1x.tif a100.tif ");
   for (const char * none : { "a%", "a%5", "a%x.tif", "a%000000000d.tif", "b*", "a#", "a######.tif" })
   {
-    ExpectRefused(m_Folder / none, { "no TIFF, PNG or BMP slices of this pattern" });
+    ExpectRefused(m_Folder / none, { "no TIFF, PNG, BMP or JPEG slices of this pattern" });
   }
   ExpectRefused(m_Folder / "a*b*c*d*e*", { "too many *" });
   EXPECT_THROW(OpenSlices(m_Folder / "nowhere/a*.tif", {}), InputError);

@@ -288,8 +288,8 @@ TEST(TiffSlices, PatternsChooseAmongFiles)
     EXPECT_EQ(volume.labels.back().value, 11);
   }
   ExpectRefused(folder.Path(), { "not numbered alike", "a_008.tif" });
-  ExpectRefused(folder / "c_*.tif", { "no TIFF, PNG or BMP slices" });
-  ExpectRefused(folder / "a_%02d.tif", { "no TIFF, PNG or BMP slices" });
+  ExpectRefused(folder / "c_*.tif", { "no TIFF, PNG, BMP or JPEG slices" });
+  ExpectRefused(folder / "a_%02d.tif", { "no TIFF, PNG, BMP or JPEG slices" });
 }
 
 TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
@@ -327,7 +327,7 @@ TEST(TiffSlices, GapsTwinsAndUnequalSlicesAreRefused)
   EXPECT_TRUE(HasNote(one.warnings, "one slice"));
   EXPECT_EQ(AllValues(ReadLabelVolume(folder / "one/1.tif")), AllValues(one));
   std::filesystem::create_directory(folder / "none");
-  ExpectRefused(folder / "none", { "no TIFF, PNG or BMP slices" });
+  ExpectRefused(folder / "none", { "no TIFF, PNG, BMP or JPEG slices" });
   folder.Write("stacks/1.tif", Tiff(Pages<std::uint8_t>(1)));
   folder.Write("stacks/2.tif", Tiff(Pages<std::uint8_t>(1)));
   EXPECT_THROW(ReadLabelVolume(folder / "stacks"), InputError);

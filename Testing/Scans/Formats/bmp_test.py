@@ -70,6 +70,31 @@ def main(dump):
             same(read(dump, root / f"one.{kind}"), flat.T, None, f"one {kind}")
             count += 1
 
+        # JPEG slices are grey and lossy: a bright block, cut out by a threshold; colours and previews.
+        bright = numpy.full((4, 40, 48), 20, "u1")
+        bright[:, 8:32, 16:40] = 200
+        for mode in ("L", "RGB"):
+            folder = root / f"jpeg-{mode}"
+            folder.mkdir()
+            for number, slice_ in enumerate(bright):
+                Image.fromarray(slice_).convert(mode).save(folder / f"s{number:02d}.jpg", quality=90)
+            (folder / "notes.txt").write_text("scanned on Monday")
+            found = read(dump, folder, "threshold=110:300")
+            check(not isinstance(found, str) and found["size"] == [48, 40, 4] and
+                  found["boxes"] == {"1": [[16, 8, 0], [24, 24, 4]]} and found["format"] == "JPEG slices",
+                  f"JPEG {mode}: {found}")
+            count += 1
+        (folder / "scan.nrrd").write_text("another scan")
+        check(isinstance(read(dump, folder), str), "a preview is taken for slices")
+        one = root / "one.jpg"
+        Image.fromarray(generator.integers(0, 255, (16, 16, 3), "u1"), "RGB").resize((64, 64)).save(one)
+        found = read(dump, one, "threshold=110:300")
+        check(isinstance(found, str) and "colour picture" in found and ";" in found, f"colours: {found}")
+        data = (root / "jpeg-L" / "s00.jpg").read_bytes()
+        for length in (0, 1, 20, 200, len(data) // 2, len(data) - 3):
+            (root / "cut.jpg").write_bytes(data[:length])
+            check(isinstance(read(dump, root / "cut.jpg", "threshold=110:300"), str), f"{length} bytes are read")
+
         colour = root / "colour.bmp"
         Image.fromarray(generator.integers(0, 255, (6, 7, 3), "u1"), "RGB").save(colour)
         palette = root / "palette.bmp"

@@ -2,7 +2,8 @@
 memory than what the file's bytes can stand for. The process reads one after the other; a new one takes its place when
 it dies.
 
-usage: damaged_files.py DUMP_PROGRAM mgh|numpy|bmp|zarr|tiff|lsm COUNT      exit 77: what writes the format is not there
+usage: damaged_files.py DUMP_PROGRAM mgh|numpy|bmp|zarr|tiff|lsm|vti|precomputed COUNT
+exit 77: what writes the format is not there
 """
 import json
 import os
@@ -52,6 +53,9 @@ def write_bmp(folder):
     for mode in ("1", "L", "RGB"):
         names.append(folder / f"{mode}.bmp")
         Image.fromarray(values).convert(mode).save(names[-1])
+    for mode in ("L", "RGB"):
+        names.append(folder / f"{mode}.jpg")
+        Image.fromarray(values).convert(mode).save(names[-1], progressive=mode == "RGB")
     return [[name] for name in names], names
 
 
@@ -66,7 +70,8 @@ def write_tiff(folder):
         "axes": "TZCYX", "PhysicalSizeX": 1, "PhysicalSizeY": 1, "PhysicalSizeZ": 2})
     tifffile.imwrite(folder / "c.tif", values[0, :, 0], photometric="minisblack", compression="zlib", tile=(16, 16))
     tifffile.imwrite(folder / "d.tif", values[0, :, 0], photometric="minisblack", bigtiff=True)
-    names = [folder / f"{letter}.tif" for letter in "abcd"]
+    tifffile.imwrite(folder / "e.tif", values[0, :, 0], imagej=True, truncate=True, metadata={"axes": "ZYX"})
+    names = [folder / f"{letter}.tif" for letter in "abcde"]
     return [[name] for name in names], names
 
 
@@ -99,6 +104,35 @@ def write_zarr(folder):
     # Metadata are as many as chunks.
     return [sorted(p for p in store.rglob("*") if p.is_file()) +
             [p for p in store.rglob("*") if p.is_file() and p.read_bytes()[:1] == b"{"] * 6 for store in stores], stores
+
+
+def write_vti(folder):
+    import numpy
+    import vti_test
+    values = numpy.zeros((20, 18, 16), numpy.int16)
+    values[3:12, 4:9, 2:14] = 7
+    names = []
+    for mode, packed, base64 in (("ascii", False, True), ("binary", False, True), ("binary", True, True),
+                                 ("appended", False, False), ("appended", True, False), ("appended", True, True)):
+        names.append(folder / f"{len(names)}.vti")
+        vti_test.write(names[-1], vti_test.image_of(values), mode, packed, base64=base64)
+    return [[name] for name in names], names
+
+
+def write_precomputed(folder):
+    import numpy
+    import precomputed_test
+    values = numpy.zeros((12, 14, 16), numpy.uint64)
+    values[2:9, 3:11, 4:13] = 7
+    shards = {"hash": "identity", "preshift_bits": 0, "minishard_bits": 1, "shard_bits": 1,
+              "minishard_index_encoding": "gzip", "data_encoding": "gzip"}
+    stores = []
+    for how in ({}, {"packed": ".gz"}, {"encoding": "compressed_segmentation"}, {"sharding": shards},
+                {"sharding": {**shards, "minishard_index_encoding": "raw", "data_encoding": "raw",
+                              "hash": "murmurhash3_x86_128"}, "encoding": "compressed_segmentation"}):
+        stores.append(folder / f"store{len(stores)}")
+        precomputed_test.write(stores[-1], values, chunk=(6, 6, 6), **how)
+    return [sorted(p for p in store.rglob("*") if p.is_file()) + [store / "info"] * 6 for store in stores], stores
 
 
 def damaged(data, dice):
@@ -183,7 +217,7 @@ def main(dump, form, count):
         folder = pathlib.Path(name)
         try:
             writers = {"mgh": write_mgh, "numpy": write_numpy, "bmp": write_bmp, "tiff": write_tiff, "lsm": write_lsm,
-                       "zarr": write_zarr}
+                       "zarr": write_zarr, "vti": write_vti, "precomputed": write_precomputed}
             parts, scans = writers[form](folder)
         except ImportError as missing:
             print(missing)

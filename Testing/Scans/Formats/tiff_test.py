@@ -76,6 +76,32 @@ def main(dump):
             tifffile.imwrite(path, values, photometric="minisblack", **how)
             same(read(dump, path), values.T, None, f"without a voxel size {how}")
             count += 1
+        # Slices stored as channels: more than ImageJ shows are slices; of fewer nobody knows.
+        for slices, big in ((8, False), (48, True)):
+            values = volume((slices, 6, 5), "u2", generator)
+            path = folder / f"channels-{slices}.tif"
+            tifffile.imwrite(path, values, imagej=True, metadata={"axes": "CYX"})
+            same(read(dump, path), values.T, None, f"{slices} channels as slices")
+            some = int(numpy.argwhere(values)[0][0])
+            same(read(dump, path, f"component={some}"), values[some:some + 1].T, None, "one channel of them")
+            count += 2
+        few = folder / "channels-3.tif"
+        tifffile.imwrite(few, volume((3, 6, 5), "u2", generator), imagej=True, metadata={"axes": "CYX"})
+        refusal = str(read(dump, few))
+        check("--component 2" in refusal and "say so in Fiji" in refusal, f"three channels: {refusal}")
+        # As ImageJ writes stacks above 4 GB: one page is listed, the others lie behind it.
+        for kind in ("u1", ">u2", "<u2", "f4"):
+            values = volume((9, 6, 5), kind, generator)
+            path = folder / f"behind-{count}.tif"
+            tifffile.imwrite(path, values, imagej=True, truncate=True, byteorder=">" if kind[0] == ">" else None,
+                             metadata={"axes": "ZYX", "unit": "um", "spacing": 2}, resolution=(1, 1))
+            pages = len(tifffile.TiffFile(path).pages)
+            check(pages == 1, f"tifffile lists {pages} pages")
+            same(read(dump, path), values.T, matrix(numpy.array([1, 1, 2]) * 1e-3), f"pages behind the first, {kind}")
+            whole = path.read_bytes()
+            path.write_bytes(whole[:-7])
+            check("cut off" in str(read(dump, path)), "a stack that is cut off is read")
+            count += 1
     finish(count)
 
 

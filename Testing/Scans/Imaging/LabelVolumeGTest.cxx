@@ -44,7 +44,7 @@ TEST(BadInput, EachIsOneLineThatNamesTheFileAndWhatToDo)
   ExpectRefused(folder.Write("empty.nrrd", ""), { "empty" });
   ExpectRefused(folder.Write("empty.nii.gz", ""), { "empty" });
   std::filesystem::create_directory(folder / "folder");
-  ExpectRefused(folder / "folder", { "no TIFF, PNG or BMP slices" });
+  ExpectRefused(folder / "folder", { "no TIFF, PNG, BMP or JPEG slices" });
   ExpectRefused(folder.Write("text.nrrd", "Dear colleague,\n\nplease find the scan attached.\n"), { "not an NRRD" });
   ExpectRefused(folder.Write("text.nii", std::string(1000, 'x')), { "no NIfTI" });
   ExpectRefused(folder.Write("text.nii.gz", std::string(1000, 'x')), { "no NIfTI" });

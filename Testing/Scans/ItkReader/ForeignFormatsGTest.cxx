@@ -45,9 +45,11 @@ TEST(ForeignFormats, AreToldByTheirFirstBytesWhateverTheirName)
     { At(0, "\xDA\xCE\xBE\x0A"), { "ND2", "bfconvert" } },
     { At(0, "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"), { "OIB", "TIFF" } },
     { At(0, "# AmiraMesh BINARY"), { "Amira", "Fiji" } },
-    { At(0, "CTDATA-HEADER_V1"), { "Scanco" } },
+    { At(0, "#INRIMAGE-4#{"), { "Inrimage", "tail -c +257 a.any > a.raw" } },
+    { At(0, "CTDATA-HEADER_V1"), { "Scanco", "python3 -c" } },
     { At(0, "\x93NUMPY"), { "NumPy", "name it a.npy" } },
-    { At(0, "MATLAB 5.0 MAT-file"), { "MATLAB", "niftiwrite" } },
+    { At(0, "MATLAB 5.0 MAT-file"), { "MATLAB", "scipy.io.loadmat('a.any')", "niftiwrite" } },
+    { At(0, "MATLAB 7.3 MAT-file"), { "MATLAB", "h5py.File('a.any')" } },
     { At(0, "\xFF\xD8\xFF"), { "JPEG", "changes labels" } },
     { At(0, "NRRD0004"), { "name it a.nrrd" } },
     { At(344, "n+1\0"s), { "name it a.nii" } },
@@ -82,7 +84,7 @@ TEST(ForeignFormats, AreToldByTheirExtensionWhereBytesSayNothing)
     { "a.mgz", { "FreeSurfer", "truncated" } },
     { "a.MGH", { "FreeSurfer", "truncated" } },
     { "a.rec", { "PAR/REC", "MRC" } },
-    { "a.vti", { "VTK image", "ParaView" } },
+    { "a.vti", { "line 1", "damaged" } },
     { "a.czi", { "CZI" } },
     { "a.lif", { "LIF", "bfconvert" } },
     { "a.nd2", { "ND2" } },
@@ -125,11 +127,11 @@ TEST(ForeignFormats, FoldersWithoutSlicesSayWhatTheyHold)
   ExpectRefused(folder / "series", { "DICOM", "dcm2niix -z y -o OUT series" });
 #endif
   folder.Write("photos/a.jpg", At(0, "\xFF\xD8\xFF"));
-  ExpectRefused(folder / "photos", { "'a.jpg'", "TIFF or PNG" });
+  ExpectRefused(folder / "photos", { "a.jpg", "TIFF or PNG" });
   folder.Write("a.n5/attributes.json", "{}");
   ExpectRefused(folder / "a.n5", { "N5", "Fiji" });
   folder.Write("text/readme.txt", "nothing");
-  ExpectRefused(folder / "text", { "no TIFF, PNG or BMP slices" });
+  ExpectRefused(folder / "text", { "no TIFF, PNG, BMP or JPEG slices" });
 }
 
 // What is said where nobody reads a file, as in a build without ITK.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -66,6 +67,15 @@ TYPED_TEST(LabelAssemblerOf, EachValueHasItsShapeInItsTightBox)
                 }).find(refused.second),
                 std::string::npos);
     }
+    // What lies outside of a scan may be no number; labels that are named need no guess.
+    LabelChoice one;
+    one.labels = "1";
+    LabelAssembler assembler("the image", SizedGeometry(3, 1, 1), LabelAssembler::Pixel::Of<TypeParam>(), one);
+    const std::vector<TypeParam> outside{ 1, std::numeric_limits<TypeParam>::quiet_NaN(), 0 };
+    assembler.AddRows(outside.data(), 0, 1);
+    ASSERT_EQ(assembler.PassedOver().size(), 1U);
+    EXPECT_TRUE(std::isnan(assembler.PassedOver()[0]));
+    EXPECT_EQ(assembler.TakeShapes().at(0).voxels, 1U);
   }
 }
 

@@ -41,7 +41,7 @@ ReadHeader(const std::filesystem::path & path)
   bytes.resize(stream->ReadSome(bytes.data(), bytes.size()));
   if (bytes.size() < kFileHeader + kShortestHeader || bytes[0] != std::byte{ 'B' } || bytes[1] != std::byte{ 'M' })
   {
-    RefuseInput(path, "not a BMP picture", "the file is damaged or of another kind");
+    RefuseInput(path, "not a BMP picture", "write it anew, or give it the extension of its kind");
   }
   const HeaderFields fields(bytes, std::endian::native != std::endian::little);
   BmpHeader          header;

@@ -89,7 +89,9 @@ ReadMetaHeader(const std::filesystem::path & path, bool isBeside = false)
   }
   if (!inList && !isBeside)
   {
-    RefuseInput(path, "not a MetaImage header: it has no ElementDataFile", "the file is damaged or of another kind");
+    RefuseInput(path,
+                "not a MetaImage header: it has no ElementDataFile",
+                "write it anew, or give it the extension of its kind");
   }
   return header;
 }
@@ -119,7 +121,7 @@ MetaTypeOf(const std::filesystem::path & path, const std::string & text)
     RefuseInput(path,
                 colour ? Text("several values a voxel (", Printable(text, 30), ")")
                        : Text("voxels of type '", Printable(text, 30), "' are no whole numbers"),
-                "one whole number a voxel is needed");
+                "save it with one whole number a voxel");
   }
   return found->second;
 }
@@ -280,7 +282,7 @@ OpenMeta(const std::filesystem::path & path,
   const auto n = static_cast<std::size_t>(*dimensions);
   if (n < 3)
   {
-    RefuseInput(path, Text(n, "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(path, Text(n, "-D image"), "save one volume with three axes in space");
   }
   const std::string         dimSize = header.Field({ "dimsize" });
   const auto                words = Words(dimSize);

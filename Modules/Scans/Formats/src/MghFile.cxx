@@ -97,7 +97,9 @@ OpenMgh(const std::filesystem::path & path, const ReadOptions & options)
   scan.voxels = OpenBytes(path, 0, packing);
   if (scan.voxels->ReadSome(bytes.data(), bytes.size()) < bytes.size())
   {
-    RefuseInput(path, "too short for the header of a FreeSurfer volume", "the file is truncated or of another kind");
+    RefuseInput(path,
+                "too short for the header of a FreeSurfer volume",
+                "fetch it anew, or give it the extension of its kind");
   }
   scan.swapBytes = std::endian::native != std::endian::big;
   const HeaderFields header(bytes, scan.swapBytes);
@@ -113,7 +115,7 @@ OpenMgh(const std::filesystem::path & path, const ReadOptions & options)
   const std::int32_t frames = header.At<std::int32_t>(16);
   if (frames < 1)
   {
-    RefuseInput(path, Text("its header gives ", frames, " frames"), "the file is damaged");
+    RefuseInput(path, Text("its header gives ", frames, " frames"), "the file is damaged: write it anew");
   }
   const std::uint64_t volume = ChooseVolume(path, static_cast<std::uint64_t>(frames), options);
   ChooseComponent(path, 1, "volume of vectors", options);

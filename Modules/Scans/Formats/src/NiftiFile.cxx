@@ -112,7 +112,7 @@ ReadNiftiHeader(const std::filesystem::path & path)
   const std::size_t             got = stream->ReadSome(bytes.data(), bytes.size());
   if (got < kSize1)
   {
-    RefuseInput(path, "too short for a NIfTI header", "the file is truncated or of another kind");
+    RefuseInput(path, "too short for a NIfTI header", "fetch it anew, or give it the extension of its kind");
   }
   NiftiHeader  h;
   std::int32_t size = 0;
@@ -183,7 +183,7 @@ NiftiTypeOf(const std::filesystem::path & path, int datatype)
     case 32:
     case 1792:
     case 2048:
-      RefuseInput(path, "its voxels are complex numbers", "one whole number a voxel is needed");
+      RefuseInput(path, "its voxels are complex numbers", "save it with one whole number a voxel");
     default:
       break;
   }
@@ -290,11 +290,11 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
   scan.swapBytes = h.swapped;
   if (h.dim[0] < 1 || h.dim[0] > 7)
   {
-    RefuseInput(path, Text("its header gives ", h.dim[0], " dimensions"), "the file is damaged");
+    RefuseInput(path, Text("its header gives ", h.dim[0], " dimensions"), "the file is damaged: write it anew");
   }
   if (h.dim[0] < 3)
   {
-    RefuseInput(path, Text(h.dim[0], "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(path, Text(h.dim[0], "-D image"), "save one volume with three axes in space");
   }
   std::copy_n(h.dim.begin() + 1, 3, scan.geometry.size.begin());
   // The fourth axis is that of time. Those behind it hold the values of a voxel, each as a volume of its own.
@@ -310,7 +310,7 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
     }
     if (h.dim[d] < 0 || h.dim[d] > kMostBlocks || count > std::uint64_t{ kMostBlocks })
     {
-      RefuseInput(path, Text("its header gives a side of ", h.dim[d]), "the file is damaged");
+      RefuseInput(path, Text("its header gives a side of ", h.dim[d]), "the file is damaged: write it anew");
     }
   }
   scan.type = NiftiTypeOf(path, h.datatype);
@@ -338,7 +338,9 @@ OpenNifti(const std::filesystem::path & path, const ReadOptions & options)
   const auto   possible = fileBytes * LargestExpansion(packing);
   if (!(h.voxOffset >= least && h.voxOffset <= static_cast<double>(possible)))
   {
-    RefuseInput(path, Text("its header says voxels begin at byte ", Number(h.voxOffset)), "the file is damaged");
+    RefuseInput(path,
+                Text("its header says voxels begin at byte ", Number(h.voxOffset)),
+                "the file is damaged: write it anew");
   }
   const auto          offset = static_cast<std::uint64_t>(h.voxOffset);
   const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;

@@ -106,7 +106,7 @@ SortAxes(const std::filesystem::path &                           path,
   }
   if (spatial.size() < 3)
   {
-    RefuseInput(path, Text(spatial.size(), "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(path, Text(spatial.size(), "-D image"), "save one volume with three axes in space");
   }
   NrrdAxes axes;
   std::copy(spatial.begin(), spatial.end(), axes.spatial.begin());
@@ -127,18 +127,20 @@ SortAxes(const std::filesystem::path &                           path,
       {
         RefuseInput(path,
                     "values of a voxel and volumes lie on neighbouring axes",
-                    "permute the axes: values, space, time");
+                    "order its axes as values, space, time");
       }
       if (size > (before ? kMostLayers : kMostVolumes) / count)
       {
-        RefuseInput(path, Text("an axis of ", size, " values that is not in space"), "this is no label volume");
+        RefuseInput(path,
+                    Text("an axis of ", size, " values that is not in space"),
+                    "save one volume of whole numbers");
       }
       count *= size;
       kindSoFar = kind;
     }
     else
     {
-      RefuseInput(path, "its axes in space are interrupted by another axis", "permute the axes: space first");
+      RefuseInput(path, "its axes in space are interrupted by another axis", "order its axes: space first");
     }
   }
   return axes;
@@ -290,7 +292,9 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
   {
     if (header.Field(needed).empty())
     {
-      RefuseInput(path, Text("its header has no field '", needed, "'"), "the file is damaged or no NRRD");
+      RefuseInput(path,
+                  Text("its header has no field '", needed, "'"),
+                  "the file is damaged or no NRRD: write it anew");
     }
   }
   scan.type = NrrdTypeOf(path, header.Field("type"));
@@ -301,7 +305,7 @@ OpenNrrd(const std::filesystem::path & path, const ReadOptions & options)
     const auto size = ParseInteger(word);
     if (!size || *size < 1)
     {
-      RefuseInput(path, Text("a side of ", Printable(word, 20), " voxels"), "the file is damaged");
+      RefuseInput(path, Text("a side of ", Printable(word, 20), " voxels"), "the file is damaged: write it anew");
     }
     sizes.push_back(*size);
   }

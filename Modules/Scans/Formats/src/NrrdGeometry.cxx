@@ -172,7 +172,7 @@ GeometryFromDirections(const NrrdHeader &                                      h
     const auto & step = *steps[axes.spatial[a]];
     if (step.size() < 3)
     {
-      RefuseInput(scan.path, Text(step.size(), "-D space"), "a volume in three-dimensional space is needed");
+      RefuseInput(scan.path, Text(step.size(), "-D space"), "save it as a volume in three-dimensional space");
     }
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c)

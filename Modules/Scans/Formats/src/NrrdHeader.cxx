@@ -136,7 +136,9 @@ ReadNrrdHeader(const std::filesystem::path & path)
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos)
     {
-      RefuseInput(path, Text("a header line without meaning ('", Printable(line), "')"), "the file is damaged");
+      RefuseInput(path,
+                  Text("a header line without meaning ('", Printable(line), "')"),
+                  "the file is damaged: write it anew");
     }
     if (line.substr(colon + 1).starts_with('='))
     {

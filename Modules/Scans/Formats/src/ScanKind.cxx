@@ -13,6 +13,10 @@ ScanKindOf(const std::filesystem::path & path)
   {
     return ScanKind::Zarr;
   }
+  if (IsPrecomputed(path))
+  {
+    return ScanKind::Precomputed;
+  }
   if (AreSlices(path))
   {
     return ScanKind::Slices;
@@ -28,8 +32,9 @@ ScanKindOf(const std::filesystem::path & path)
          : ends({ ".mha", ".mhd" })                                          ? ScanKind::MetaImage
          : ends({ ".mgh", ".mgz", ".mgh.gz" })                               ? ScanKind::Mgh
          : ends({ ".npy" })                                                  ? ScanKind::Numpy
+         : ends({ ".vti" })                                                  ? ScanKind::Vti
          : ends({ ".tif", ".tiff", ".lsm" })                                 ? ScanKind::Tiff
-         : ends({ ".png", ".bmp" })                                          ? ScanKind::Picture
+         : ends({ ".png", ".bmp", ".jpg", ".jpeg" })                         ? ScanKind::Picture
                                                                              : ScanKind::Unknown;
 }
 

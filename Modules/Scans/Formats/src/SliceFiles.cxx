@@ -1,6 +1,7 @@
-// A folder or a pattern of TIFF, PNG or BMP slices as one volume, in natural order (2 before 10).
+// A folder or a pattern of TIFF, PNG, BMP or JPEG slices as one volume, in natural order (2 before 10).
 
 #include "BmpFile.h"
+#include "JpegFile.h"
 #include "PngFile.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/FormatOpeners.h"
@@ -74,23 +75,25 @@ enum class SliceKind : std::uint8_t
   None,
   Tiff,
   Png,
-  Bmp
+  Bmp,
+  Jpeg
 };
 
 SliceKind
 SliceKindOf(const std::filesystem::path & path)
 {
   const std::string extension = LowerCase(path.extension().string());
-  return extension == ".tif" || extension == ".tiff" ? SliceKind::Tiff
-         : extension == ".png"                       ? SliceKind::Png
-         : extension == ".bmp"                       ? SliceKind::Bmp
-                                                     : SliceKind::None;
+  return extension == ".tif" || extension == ".tiff"   ? SliceKind::Tiff
+         : extension == ".png"                         ? SliceKind::Png
+         : extension == ".bmp"                         ? SliceKind::Bmp
+         : extension == ".jpg" || extension == ".jpeg" ? SliceKind::Jpeg
+                                                       : SliceKind::None;
 }
 
 const char *
 NameOf(SliceKind kind)
 {
-  return kind == SliceKind::Png ? "PNG" : kind == SliceKind::Bmp ? "BMP" : "TIFF";
+  return kind == SliceKind::Png ? "PNG" : kind == SliceKind::Bmp ? "BMP" : kind == SliceKind::Jpeg ? "JPEG" : "TIFF";
 }
 
 /** The slice as one page; of another kind as if it were one of TIFF. */
@@ -109,6 +112,15 @@ InspectSlice(const std::filesystem::path & path, const ReadOptions & options)
     const BmpPage bmp = InspectBmp(path);
     page.width = bmp.width;
     page.height = bmp.height;
+    ChooseComponent(path, 1, "grey picture", options);
+    return page;
+  }
+  if (kind == SliceKind::Jpeg)
+  {
+    const JpegPage jpeg = InspectJpeg(path);
+    page.width = jpeg.width;
+    page.height = jpeg.height;
+    page.lossy = true;
     ChooseComponent(path, 1, "grey picture", options);
     return page;
   }
@@ -211,13 +223,40 @@ SkyScanSpacing(const std::filesystem::path & slice)
   return stated;
 }
 
+/** Of a folder. A JPEG picture beside other scans is a preview. */
 bool
-IsSlice(const std::filesystem::directory_entry & entry)
+IsSlice(const std::filesystem::directory_entry & entry, bool takesJpeg)
 {
   const std::string name = entry.path().filename().string();
+  const SliceKind   kind = SliceKindOf(entry.path());
   std::error_code   ignored;
-  return SliceKindOf(entry.path()) != SliceKind::None && !name.starts_with('.') && !IsSpare(entry.path()) &&
-         entry.is_regular_file(ignored);
+  return kind != SliceKind::None && (kind != SliceKind::Jpeg || takesJpeg) && !name.starts_with('.') &&
+         !IsSpare(entry.path()) && entry.is_regular_file(ignored);
+}
+
+/** Whether a folder holds JPEG pictures and, but for texts, nothing else. */
+bool
+AreJpegs(const std::filesystem::path & folder)
+{
+  std::error_code ignored;
+  bool            found = false;
+  for (const auto & entry : std::filesystem::directory_iterator(folder, ignored))
+  {
+    const std::string name = LowerCase(entry.path().filename().string());
+    const bool        isText = std::ranges::any_of(
+      std::initializer_list<std::string_view>{ ".txt", ".log", ".csv", ".json", ".xml", ".md", ".db" },
+      [&](std::string_view ending) { return name.ends_with(ending); });
+    if (name.starts_with('.') || isText)
+    {
+      continue;
+    }
+    if (SliceKindOf(entry.path()) != SliceKind::Jpeg)
+    {
+      return false;
+    }
+    found = true;
+  }
+  return found;
 }
 
 std::vector<Slice>
@@ -231,6 +270,7 @@ FindSlices(const std::filesystem::path & path)
   {
     RefuseInput(path, "too many * in the pattern", "use one");
   }
+  const bool         takesJpeg = !folder || AreJpegs(path);
   std::vector<Slice> slices;
   auto               entries = std::filesystem::directory_iterator(where, error);
   if (error)
@@ -240,7 +280,7 @@ FindSlices(const std::filesystem::path & path)
   for (const auto & entry : entries)
   {
     const std::string name = entry.path().filename().string();
-    if (IsSlice(entry) && (folder || Fits(pattern, name)))
+    if (IsSlice(entry, takesJpeg) && (folder || Fits(pattern, name)))
     {
       slices.push_back({ entry.path(), CutName(name) });
     }
@@ -252,7 +292,8 @@ FindSlices(const std::filesystem::path & path)
   if (slices.empty())
   {
     RefuseInput(path,
-                folder ? "no TIFF, PNG or BMP slices in this folder" : "no TIFF, PNG or BMP slices of this pattern",
+                folder ? "no TIFF, PNG, BMP or JPEG slices in this folder"
+                       : "no TIFF, PNG, BMP or JPEG slices of this pattern",
                 "check the name");
   }
   const SliceKind kind = SliceKindOf(slices.front().path);
@@ -374,7 +415,8 @@ HasSlices(const std::filesystem::path & folder)
 {
   std::error_code ignored;
   const auto      entries = std::filesystem::directory_iterator(folder, ignored);
-  return std::any_of(begin(entries), end(entries), IsSlice);
+  const bool      takesJpeg = AreJpegs(folder);
+  return std::any_of(begin(entries), end(entries), [&](const auto & entry) { return IsSlice(entry, takesJpeg); });
 }
 
 std::vector<std::filesystem::path>
@@ -427,6 +469,14 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
   scan.path = path;
   const SliceKind kind = SliceKindOf(files.front());
   scan.format = Text(NameOf(kind), " slices");
+  if (kind == SliceKind::Jpeg)
+  {
+    common.lossy = false; // said here
+    scan.warnings.emplace_back(
+      "JPEG slices: values are not quite what was saved, so that labels in them are lost; take them as a grey scan "
+      "with "
+      "--threshold LO:HI");
+  }
   DescribeTiff(common, scan);
   scan.geometry.size = { common.width, common.height, static_cast<std::int64_t>(files.size()) };
   ChooseVolume(path, 1, options);
@@ -441,9 +491,10 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options)
   const Vector3       spacing = CompleteSpacing(logged.mm[0] ? logged : common.spacing, options, scan);
   SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, spacing, { 0, 0, 0 }, options);
   scan.voxels = OpenParts(files, common.PageBytes(), [kind, options](const std::filesystem::path & file) {
-    return kind == SliceKind::Png   ? OpenPngPage(file, options)
-           : kind == SliceKind::Bmp ? OpenBmpPage(file)
-                                    : OpenTiffPages(file, InspectTiff(file, options));
+    return kind == SliceKind::Png    ? OpenPngPage(file, options)
+           : kind == SliceKind::Bmp  ? OpenBmpPage(file)
+           : kind == SliceKind::Jpeg ? OpenJpegPage(file)
+                                     : OpenTiffPages(file, InspectTiff(file, options));
   });
   return scan;
 }

@@ -278,8 +278,8 @@ ChoosePages(const std::filesystem::path &      path,
   {
     RefuseInput(
       path,
-      Text("ImageJ says it holds ", order.images, " pages, it lists ", pages.size(), " (stacks above 4 GB do)"),
-      "save it as BigTIFF or NRRD");
+      Text("ImageJ says it holds ", order.images, " pages, it lists ", pages.size(), ", and the others are not there"),
+      "the file is cut off: fetch it anew, or save it as BigTIFF or NRRD");
   }
   if (order.volumesInFile > 1)
   {
@@ -289,7 +289,7 @@ ChoosePages(const std::filesystem::path &      path,
   }
   __extension__ using Wide = unsigned __int128; // two numbers of 64 bits that a file claims
   const Wide groups = Wide{ order.channels } * order.frames;
-  if (groups == 1)
+  if (groups == 1 || (!options.component && order.AreChannelsSlices(pages.size())))
   {
     return pages;
   }
@@ -315,8 +315,11 @@ ChoosePages(const std::filesystem::path &      path,
         RefuseInput(path,
                     chosen ? Text("there is no ", what, " ", *chosen, ", it has ", count)
                            : Text("hyperstack of ", order.program, " with ", count, " ", what, "s"),
-                    count == 1 ? Text("leave ", option, " out or give 0")
-                               : Text("choose one with ", option, " 0 to ", option, " ", count - 1));
+                    (count == 1 ? Text("leave ", option, " out or give 0")
+                                : Text("choose one with ", option, " 0 to ", option, " ", count - 1)) +
+                      (groups == pages.size() && pages.size() > 1
+                         ? Text("; if its ", what, "s are slices, say so in Fiji (Image > Properties) and save it anew")
+                         : std::string()));
       }
       return number;
     };

@@ -16,6 +16,9 @@ class TiffHandle;
 /** ImageJ and OME put channels and time points into the same row of pages as slices. */
 struct PageOrder
 {
+  /** ImageJ shows no more channels at a time; with more of them, slices have been stored as channels. */
+  static constexpr std::uint64_t mostChannels = 7;
+
   std::string   program{}; ///< "ImageJ" or "OME"; empty: pages are slices
   std::uint64_t channels = 1;
   std::uint64_t frames = 1;
@@ -23,6 +26,13 @@ struct PageOrder
   std::string   fastest = "CZT";   ///< which changes from page to page, which next: channel, slice, frame
   bool          isPlain = true;    ///< pages follow each other in that order
   std::uint64_t volumesInFile = 1; ///< images of their own (OME)
+
+  /** Of `pages`: each a channel, more of them than ImageJ shows. */
+  bool
+  AreChannelsSlices(std::size_t pages) const
+  {
+    return program == "ImageJ" && frames == 1 && channels > mostChannels && channels == pages;
+  }
 };
 
 /** Reads the first lines "key=value" of ImageJ, or OME-XML; `samples` is how many values a pixel has. */

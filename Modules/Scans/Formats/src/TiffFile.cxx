@@ -151,6 +151,34 @@ ReadPage(const std::filesystem::path & path,
   return page;
 }
 
+/** Of a stack of ImageJ's that lists its first page alone, where all of its pages lie, if they do. */
+std::optional<TiffPages::Behind>
+PagesBehind(const TiffHandle & tiff, const PageOrder & order, const TiffPages & first, std::uint64_t fileBytes)
+{
+  if (order.program != "ImageJ" || order.images < 2 || first.offsets.size() != 1 || order.channels != 1 ||
+      order.frames != 1 || first.samples != 1 || first.bits < 8 || TIFFIsTiled(tiff.Get()) != 0 ||
+      tiff.Field<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE)
+  {
+    return std::nullopt;
+  }
+  TiffPages::Behind behind{ TIFFGetStrileOffset(tiff.Get(), 0),
+                            order.images,
+                            TIFFIsByteSwapped(tiff.Get()) != 0 && first.bits > 8 };
+  std::uint64_t     next = behind.from;
+  for (std::uint32_t strip = 0; strip < TIFFNumberOfStrips(tiff.Get()); ++strip)
+  {
+    if (TIFFGetStrileOffset(tiff.Get(), strip) != next)
+    {
+      return std::nullopt;
+    }
+    next += TIFFGetStrileByteCount(tiff.Get(), strip);
+  }
+  const std::uint64_t page = first.PageBytes();
+  const bool          areThere = next - behind.from == page && behind.from <= fileBytes && order.images <= UINT32_MAX &&
+                        (fileBytes - behind.from) / page >= order.images;
+  return areThere ? std::optional(behind) : std::nullopt;
+}
+
 } // namespace
 
 TiffPages
@@ -225,6 +253,12 @@ InspectTiff(const std::filesystem::path & path, const ReadOptions & options)
                 "the file is truncated: fetch it anew");
   }
   pages.frames = order.frames;
+  pages.behind = PagesBehind(tiff, order, pages, fileBytes);
+  if (pages.behind)
+  {
+    return pages;
+  }
+  pages.channelsAreSlices = !options.component && order.AreChannelsSlices(pages.offsets.size());
   pages.offsets = ChoosePages(path, order, pages.offsets, options);
   return pages;
 }
@@ -235,14 +269,23 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
   const TiffPages pages = InspectTiff(path, options);
   ScanFile        scan;
   scan.path = path;
-  NoteOneSlice(pages.offsets.size(), scan);
+  const std::uint64_t slices = pages.behind ? pages.behind->slices : pages.offsets.size();
+  NoteOneSlice(slices, scan);
   scan.format = pages.isLsm ? "LSM" : "TIFF";
   DescribeTiff(pages, scan);
-  scan.geometry.size = { pages.width, pages.height, static_cast<std::int64_t>(pages.offsets.size()) };
+  scan.geometry.size = { pages.width, pages.height, static_cast<std::int64_t>(slices) };
   ChooseVolume(path, pages.frames, options);
   CheckSize(path, scan.geometry.size, PixelBytes(pages.type), ~std::uint64_t{ 0 });
   const Vector3 spacing = CompleteSpacing(pages.spacing, options, scan);
   SetGeometry(scan, { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }, spacing, { 0, 0, 0 }, options);
+  if (pages.behind)
+  {
+    ChooseComponent(path, 1, "stack", options);
+    scan.voxels = OpenBytes(path, pages.behind->from, Packing::Plain);
+    scan.swapBytes = pages.behind->swapBytes;
+    scan.hasMore = true; // ImageJ's own notes on the stack
+    return scan;
+  }
   scan.voxels = OpenTiffPages(path, pages);
   return scan;
 }

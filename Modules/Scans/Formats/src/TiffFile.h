@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,19 @@ struct TiffPages
   bool                       minIsWhite = false;
   bool                       lossy = false;
   bool                       isLsm = false;
-  std::vector<std::uint64_t> offsets;    ///< of the directory of each page to read, in the file
-  std::uint64_t              frames = 1; ///< of which options.volume chose one
-  StatedSpacing              spacing;    ///< as the first page states it
+  std::vector<std::uint64_t> offsets;                   ///< of the directory of each page to read, in the file
+  std::uint64_t              frames = 1;                ///< of which options.volume chose one
+  StatedSpacing              spacing;                   ///< as the first page states it
+  bool                       channelsAreSlices = false; ///< ImageJ's name for them, and what they are taken for
+
+  /** ImageJ's stacks above 4 GB: the file lists one page, behind whose values those of the others lie. */
+  struct Behind
+  {
+    std::uint64_t from = 0; ///< in the file, of the first page
+    std::uint64_t slices = 0;
+    bool          swapBytes = false;
+  };
+  std::optional<Behind> behind{};
 
   std::uint64_t
   PageBytes() const

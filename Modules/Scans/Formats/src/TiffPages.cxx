@@ -24,6 +24,16 @@ DescribeTiff(const TiffPages & pages, ScanFile & scan)
   {
     scan.notes.push_back("pages show 0 as white; values are taken as stored");
   }
+  if (pages.channelsAreSlices)
+  {
+    scan.warnings.push_back("ImageJ calls its pages channels; so many are taken for slices (--component 0 takes one)");
+  }
+  if (pages.behind)
+  {
+    scan.notes.push_back(Text("a stack of ImageJ's above 4 GB: of its ",
+                              pages.behind->slices,
+                              " pages the file lists the first, and the others lie behind it"));
+  }
   if (pages.lossy)
   {
     scan.warnings.push_back(

@@ -46,7 +46,7 @@ ReadVersion2(const Json & json, ZarrArray & array)
   const auto   dtype = Member(folder, json, "dtype");
   if (!dtype.is_string() || dtype.get<std::string>().size() < 3)
   {
-    RefuseInput(folder, "its values are structures or texts", "whole numbers are needed, one a voxel");
+    RefuseInput(folder, "its values are structures or texts", "save it with one whole number a voxel");
   }
   const auto name = dtype.get<std::string>();
   array.type = ZarrTypeOf(folder, name.substr(1));
@@ -207,6 +207,10 @@ ZarrArray::ChunkBytes() const
 std::filesystem::path
 ZarrArray::ChunkFile(const std::vector<std::uint64_t> & index) const
 {
+  if (chunkFile)
+  {
+    return chunkFile(index);
+  }
   std::string name = prefix;
   for (std::size_t a = 0; a < index.size(); ++a)
   {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <set>
@@ -50,6 +51,10 @@ struct ZarrArray
     bool                       hasChecksum = true;
   };
   std::optional<Shards> shards;
+
+  // Of other formats that hold chunks in a grid: how a chunk is read, unpacked, and where it lies.
+  std::function<std::optional<std::vector<std::byte>>(const std::vector<std::uint64_t> & index)> readChunk{};
+  std::function<std::filesystem::path(const std::vector<std::uint64_t> & index)>                 chunkFile{};
 
   std::uint64_t
   ChunkBytes() const;

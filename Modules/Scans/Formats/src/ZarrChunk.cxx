@@ -226,6 +226,10 @@ ReadZarrChunk(const ZarrArray &                  array,
               const std::vector<std::uint64_t> & index,
               std::set<std::filesystem::path> &  checkedShards)
 {
+  if (array.readChunk)
+  {
+    return array.readChunk(index);
+  }
   const auto      file = array.ChunkFile(index);
   std::error_code missing;
   if (!std::filesystem::exists(file, missing))

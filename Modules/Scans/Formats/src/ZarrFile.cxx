@@ -54,45 +54,6 @@ ChooseZarrVolume(const std::filesystem::path & path, ZarrImage image, const Read
 }
 
 void
-RequireSomeChunks(const std::filesystem::path & path, const ZarrVolume & volume, const CropRange & part)
-{
-  const ZarrGrid grid(volume.image, part);
-  const double   count = grid.Count();
-  const double   bytes = count * static_cast<double>(volume.image.array.ChunkBytes());
-  if (bytes <= kNoQuestion && count <= kMostLooks)
-  {
-    return;
-  }
-  // Looks at chunks spread evenly.
-  const double        looks = std::min(count, kMostLooks);
-  const double        needed = looks / kSparsest;
-  double              there = 0;
-  const std::uint64_t sideJ = grid.end[1] - grid.first[1];
-  const std::uint64_t sideI = grid.end[2] - grid.first[2];
-  // NOLINTNEXTLINE(cert-flp30-c): whole numbers below 2^53
-  for (double look = 0; look < looks && there < needed; ++look)
-  {
-    const double number = std::floor(look * (count / looks));
-    const double row = std::floor(number / static_cast<double>(sideI));
-    const double layer = std::floor(row / static_cast<double>(sideJ));
-    const auto   within = [](double place, std::uint64_t side) {
-      return std::min(static_cast<std::uint64_t>(std::max(0.0, place)), side - 1);
-    };
-    const ZarrTriple at{ grid.first[0] + within(layer, grid.end[0] - grid.first[0]),
-                         grid.first[1] + within(row - layer * static_cast<double>(sideJ), sideJ),
-                         grid.first[2] + within(number - row * static_cast<double>(sideI), sideI) };
-    std::error_code  ignored;
-    there += std::filesystem::exists(volume.image.array.ChunkFile(volume.ChunkIndex(at)), ignored) ? 1 : 0;
-  }
-  if (there < needed)
-  {
-    RefuseInput(path,
-                Text("it should have ", Number(count), " chunks, and nearly all of them are not there"),
-                "the store is not whole or its metadata are damaged; with --crop a part of it is read");
-  }
-}
-
-void
 PlaceZarr(const ZarrImage & image, const ReadOptions & options, ScanFile & scan)
 {
   Vector3                spacing{ 1, 1, 1 };
@@ -143,6 +104,45 @@ PlaceZarr(const ZarrImage & image, const ReadOptions & options, ScanFile & scan)
 
 } // namespace
 
+void
+RequireSomeZarrChunks(const std::filesystem::path & path, const ZarrVolume & volume, const CropRange & part)
+{
+  const ZarrGrid grid(volume.image, part);
+  const double   count = grid.Count();
+  const double   bytes = count * static_cast<double>(volume.image.array.ChunkBytes());
+  if (bytes <= kNoQuestion && count <= kMostLooks)
+  {
+    return;
+  }
+  // Looks at chunks spread evenly.
+  const double        looks = std::min(count, kMostLooks);
+  const double        needed = looks / kSparsest;
+  double              there = 0;
+  const std::uint64_t sideJ = grid.end[1] - grid.first[1];
+  const std::uint64_t sideI = grid.end[2] - grid.first[2];
+  // NOLINTNEXTLINE(cert-flp30-c): whole numbers below 2^53
+  for (double look = 0; look < looks && there < needed; ++look)
+  {
+    const double number = std::floor(look * (count / looks));
+    const double row = std::floor(number / static_cast<double>(sideI));
+    const double layer = std::floor(row / static_cast<double>(sideJ));
+    const auto   within = [](double place, std::uint64_t side) {
+      return std::min(static_cast<std::uint64_t>(std::max(0.0, place)), side - 1);
+    };
+    const ZarrTriple at{ grid.first[0] + within(layer, grid.end[0] - grid.first[0]),
+                         grid.first[1] + within(row - layer * static_cast<double>(sideJ), sideJ),
+                         grid.first[2] + within(number - row * static_cast<double>(sideI), sideI) };
+    std::error_code  ignored;
+    there += std::filesystem::exists(volume.image.array.ChunkFile(volume.ChunkIndex(at)), ignored) ? 1 : 0;
+  }
+  if (there < needed)
+  {
+    RefuseInput(path,
+                Text("it should have ", Number(count), " chunks, and nearly all of them are not there"),
+                "the store is not whole or its metadata are damaged; with --crop a part of it is read");
+  }
+}
+
 std::vector<std::filesystem::path>
 ZarrFiles(const std::filesystem::path & path, const ReadOptions & options)
 {
@@ -177,7 +177,7 @@ ZarrFiles(const std::filesystem::path & path, const ReadOptions & options)
   }
   const ZarrVolume volume = ChooseZarrVolume(path, image, options);
   const CropRange  part = ResolveCrop(options.crop, SizeOf(path, volume.image), path);
-  RequireSomeChunks(path, volume, part);
+  RequireSomeZarrChunks(path, volume, part);
   ZarrGrid(volume.image, part).Each([&](const ZarrTriple & at) {
     const auto      file = volume.image.array.ChunkFile(volume.ChunkIndex(at));
     std::error_code ignored;
@@ -208,7 +208,7 @@ OpenZarr(const std::filesystem::path & path, const ReadOptions & options)
     scan.notes.push_back(Text("level ", options.level.value_or(0), " of ", volume.image.levels, " resolutions"));
   }
   const CropRange part = ResolveCrop(options.crop, scan.geometry.size, path);
-  RequireSomeChunks(path, volume, part);
+  RequireSomeZarrChunks(path, volume, part);
   PlaceZarr(volume.image, options, scan);
   const auto & size = scan.geometry.size;
   const auto   side = [&](std::size_t a) { return static_cast<std::uint64_t>(size[a]); };

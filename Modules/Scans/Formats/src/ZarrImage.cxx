@@ -49,7 +49,9 @@ Within(const fs::path & folder, const std::string & name)
   const fs::path relative = fs::path(name).lexically_normal();
   if (name.empty() || relative.is_absolute() || *relative.begin() == "..")
   {
-    RefuseInput(folder, Text("it names '", Printable(name, 60), "', which does not lie in it"), "the store is damaged");
+    RefuseInput(folder,
+                Text("it names '", Printable(name, 60), "', which does not lie in it"),
+                "the store is damaged: write it anew");
   }
   RequireInStore(folder, folder / relative);
   return folder / relative;
@@ -94,7 +96,9 @@ ImageWithin(const fs::path & folder)
   const fs::path only = Within(folder, names.front());
   if (*fs::path(names.front()).lexically_normal().begin() == ".") // one would look into it for ever
   {
-    RefuseInput(folder, "its metadata name the folder itself as the labels in it", "the store is damaged");
+    RefuseInput(folder,
+                "its metadata name the folder itself as the labels in it",
+                "the store is damaged: write it anew");
   }
   return IsImage(only) || IsZarrArray(only) ? only : ImageWithin(only);
 }
@@ -111,7 +115,7 @@ Numbers(const fs::path & folder, const Json & list, std::size_t count)
   {
     RefuseInput(folder,
                 Text("a scale or translation of ", numbers.size(), " numbers for ", count, " axes"),
-                "the store is damaged");
+                "the store is damaged: write it anew");
   }
   return numbers;
 }
@@ -181,7 +185,9 @@ ReadAxes(const fs::path & folder, const Json & multiscale, ZarrImage & image)
   }
   if (axes.size() != count)
   {
-    RefuseInput(folder, Text(axes.size(), " axes are described, the array has ", count), "the store is damaged");
+    RefuseInput(folder,
+                Text(axes.size(), " axes are described, the array has ", count),
+                "the store is damaged: write it anew");
   }
   bool                   placed = true;
   std::array<Vector3, 3> oriented{};
@@ -218,7 +224,7 @@ ReadAxes(const fs::path & folder, const Json & multiscale, ZarrImage & image)
   }
   if (spatial.size() < 3)
   {
-    RefuseInput(folder, Text(spatial.size(), "-D image"), "a volume with three axes in space is needed");
+    RefuseInput(folder, Text(spatial.size(), "-D image"), "save one volume with three axes in space");
   }
   std::copy(spatial.begin(), spatial.end(), image.spatial.begin());
   // Without names, as with them in the usual order: k, j, i are z, y, x.
@@ -272,7 +278,9 @@ ReadLevel(const fs::path & folder, const ReadOptions & options, const fs::path &
   const Json levels = multiscale.value("datasets", Json::array());
   if (!levels.is_array() || levels.empty())
   {
-    RefuseInput(folder, "an image without a resolution", "the store is damaged or not written to the end");
+    RefuseInput(folder,
+                "an image without a resolution",
+                "the store is damaged or not written to the end: write it anew");
   }
   std::size_t level = static_cast<std::size_t>(options.level.value_or(0));
   if (options.level && (*options.level < 0 || level >= levels.size()))
@@ -305,11 +313,11 @@ ReadBareArray(const fs::path & folder, const ReadOptions & options)
   const auto & shape = image.array.shape;
   if (options.level)
   {
-    throw UsageError(Text("--level: ", folder.string(), " is one array, without resolutions"));
+    throw UsageError(Text("--level: ", folder.string(), " is one array, without resolutions; leave it out"));
   }
   if (shape.size() < 3)
   {
-    RefuseInput(folder, Text(shape.size(), "-D array"), "a volume with three axes in space is needed");
+    RefuseInput(folder, Text(shape.size(), "-D array"), "save one volume with three axes in space");
   }
   if (std::any_of(shape.begin(), shape.end() - 3, [](std::uint64_t side) { return side != 1; }))
   {
@@ -361,7 +369,9 @@ ReadZarrImage(const fs::path & path, const ReadOptions & options)
   }
   catch (const Json::exception &)
   {
-    RefuseInput(path, "its metadata hold something of another type than they should", "the store is damaged");
+    RefuseInput(path,
+                "its metadata hold something of another type than they should",
+                "the store is damaged: write it anew");
   }
 }
 

@@ -79,7 +79,9 @@ FillBytes(const Json & value, bool bigEndian)
 void
 RefuseMetadata(const std::filesystem::path & folder, const std::string & what)
 {
-  RefuseInput(folder, Text("its Zarr metadata ", what), "the store is damaged or not written to the end");
+  RefuseInput(folder,
+              Text("its Zarr metadata ", what),
+              "the store is damaged or not written to the end: write it anew");
 }
 
 const Json &
@@ -234,7 +236,7 @@ ReadZarrJson(const std::filesystem::path & file)
   const std::uint64_t size = FileSize(file);
   if (size > kLongestJson)
   {
-    RefuseInput(file, "too long for metadata", "the store is damaged");
+    RefuseInput(file, "too long for metadata", "the store is damaged: write it anew");
   }
   std::string text(static_cast<std::size_t>(size), '\0');
   OpenBytes(file, 0, Packing::Plain)->Read(reinterpret_cast<std::byte *>(text.data()), text.size());

@@ -96,6 +96,11 @@ struct ZarrVolume
   }
 };
 
+/** Where a part is so large that chunks that are missing would take long, some must be there.
+ *  \throws InputError when nearly none is */
+void
+RequireSomeZarrChunks(const std::filesystem::path & path, const ZarrVolume & volume, const CropRange & part);
+
 class ZarrStream : public ByteStream
 {
 public:

@@ -18,7 +18,7 @@ namespace itk
 /** \class LabelScanImageIO
  * \brief Reads scans by the strict rules of voxelcore::ReadLabelVolume, region by region.
  *
- * NRRD, NIfTI, MetaImage, TIFF stacks, and folders or patterns of TIFF, PNG or BMP slices. What ITK's own readers get
+ * NRRD, NIfTI, MetaImage, TIFF stacks, and folders or patterns of slices. What ITK's own readers get
  * wrong without a word is read right here or refused with one line: files in micrometres, 4-D and colour files, skewed
  * axes, scaled values, segmentations in layers, slices out of order, data that are cut off. It says yes to every file
  * of its formats, also to those it then refuses, so that no laxer reader gets them.

@@ -34,18 +34,22 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
     return OpenRaw(path, options);
   }
   const ScanKind kind = ScanKindOf(path);
-  if (options.dataset && (kind != ScanKind::Unknown || FormatByItk(path) != ItkFormat::Hdf5))
+  if (options.dataset && kind != ScanKind::Vti && (kind != ScanKind::Unknown || FormatByItk(path) != ItkFormat::Hdf5))
   {
-    throw UsageError(Text("--dataset: is for HDF5 files, and ", Printable(path.string(), 4096), " is none"));
+    throw UsageError(
+      Text("--dataset: is for HDF5 and .vti files, and ", Printable(path.string(), 4096), " is neither; leave it out"));
   }
   if (kind == ScanKind::Zarr)
   {
     return OpenZarr(path, options);
   }
+  if (kind == ScanKind::Precomputed)
+  {
+    return OpenPrecomputed(path, options);
+  }
   if (options.level)
   {
-    throw UsageError(
-      Text("--level: ", Printable(path.string(), 4096), " has one resolution; only OME-Zarr has several"));
+    throw UsageError(Text("--level: ", Printable(path.string(), 4096), " has one resolution; leave it out"));
   }
   if (kind == ScanKind::Slices)
   {
@@ -80,8 +84,11 @@ OpenScan(const std::filesystem::path & path, const ReadOptions & options)
       return OpenSlices(path, options);
     case ScanKind::Numpy:
       return OpenNumpy(path, options);
+    case ScanKind::Vti:
+      return OpenVti(path, options);
     case ScanKind::Slices:
     case ScanKind::Zarr:
+    case ScanKind::Precomputed:
     case ScanKind::Unknown:
       break;
   }
@@ -111,6 +118,8 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
   {
     case ScanKind::Zarr:
       return ZarrFiles(path, options);
+    case ScanKind::Precomputed:
+      return PrecomputedFiles(path, options);
     case ScanKind::Slices:
       if (FormatByItk(path) == ItkFormat::Dicom)
       {
@@ -156,6 +165,7 @@ ScanFiles(const std::filesystem::path & path, const ReadOptions & options)
       break;
     case ScanKind::Mgh:
     case ScanKind::Numpy:
+    case ScanKind::Vti:
     case ScanKind::Tiff:
     case ScanKind::Picture:
       break;

@@ -33,6 +33,33 @@ constexpr std::string_view kBioFormats = "convert it with 'bfconvert {file} {ste
 constexpr std::string_view kJpeg2000 =
   "a volume is needed, and only lossless ones keep labels: 'opj_decompress -ImgDir SLICES -OutFor TIF', then name the "
   "folder"sv;
+// Lines for files that are voxels behind a header; foreign_lines_test.py runs each.
+constexpr std::string_view kAmira =
+  R"~(run python3 -c "d = open('{file}', 'rb').read(); open('{stem}.raw', 'wb').write(d[d.rindex(b'\n@1\n') + 4:-1])" and )~"
+  "give {stem}.raw with --raw X,Y,Z,uint8, the sides as its 'define Lattice' has them; where that says HxByteRLE, "
+  "save it as TIFF in Amira, or open it in Fiji"sv;
+constexpr std::string_view kInrimage =
+  "run tail -c +257 {file} > {stem}.raw and give {stem}.raw with --raw XDIM,YDIM,ZDIM,uint8 and --spacing VX,VY,VZ "
+  "as its first lines say"sv;
+constexpr std::string_view kDgtalVol =
+  R"~(run python3 -c "import zlib; d = open('{file}', 'rb').read(); v = d[d.index(b'\n.\n') + 3:]; )~"
+  R"~(open('{stem}.raw', 'wb').write(zlib.decompress(v) if b'Version: 3' in d[:500] else v)" and )~"
+  "give {stem}.raw with --raw X,Y,Z,uint8 as its first lines say"sv;
+constexpr std::string_view kScanco =
+  R"~(run python3 -c "import numpy; d = open('{file}', 'rb').read(); n = numpy.frombuffer(d, '<i4', 128); )~"
+  R"~(numpy.save('{stem}.npy', numpy.frombuffer(d, '<i2', offset=512 * (n[127] + 1)).reshape(n[13:10:-1])); )~"
+  R"~(print('--spacing %gum,%gum,%gum' % tuple(n[14:17] / n[11:14]))" (Debian: python3-numpy) and give {stem}.npy with )~"
+  "what it prints"sv;
+constexpr std::string_view kMatlab =
+  R"~(run python3 -c "import numpy, scipy.io; numpy.save('{stem}.npy', scipy.io.loadmat('{file}')['NAME'])" with the )~"
+  "variable's name (Debian: python3-scipy) and give {stem}.npy, or write it from MATLAB with niftiwrite(labels, "
+  "'{stem}.nii')"sv;
+constexpr std::string_view kMatlab73 =
+  R"~(run python3 -c "import h5py, numpy; numpy.save('{stem}.npy', h5py.File('{file}')['NAME'][()])" with the )~"
+  "variable's name (Debian: python3-h5py) and give {stem}.npy"sv;
+constexpr std::string_view kN5 =
+  R"~(run python3 -c "import numpy, zarr; numpy.save('labels.npy', zarr.open(zarr.N5Store('{file}'), 'r')['NAME'][:])" )~"
+  "with the dataset's name (Debian: python3-zarr) and give labels.npy, or open it in Fiji and save its labels as TIFF"sv;
 constexpr std::string_view kUnpack = "unpack it and give what is in it"sv;
 
 /** The first that fits is taken: magics before extensions. */
@@ -83,24 +110,26 @@ constexpr std::array kFormats{
                  "\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv,
                  "file of a microscope (Zeiss TXM, Olympus OIB)",
                  "export it as TIFF from the microscope's program or from Fiji (Bio-Formats)" },
-  ForeignFormat{ " am ", 0, "# AmiraMesh"sv, "Amira file", "save it as TIFF or NRRD in Amira, or open it in Fiji" },
-  ForeignFormat{ " am ", 0, "# Avizo"sv, "Avizo file", "save it as TIFF or NRRD in Avizo, or open it in Fiji" },
-  ForeignFormat{ " isq aim rsq ",
-                 0,
-                 "CTDATA-HEADER_V1"sv,
-                 "Scanco file",
-                 "convert it with ITK's module IOScanco (Python: itk-ioscanco) to .nrrd, or export it as TIFF" },
+  ForeignFormat{ " am ", 0, "# AmiraMesh"sv, "Amira file", kAmira },
+  ForeignFormat{ " am ", 0, "# Avizo"sv, "Avizo file", kAmira },
+  ForeignFormat{ " inr ", 0, "#INRIMAGE-4#"sv, "Inrimage", kInrimage },
+  ForeignFormat{ " vol ", 0, "X: "sv, "volume of DGtal", kDgtalVol, ItkFormat::None, true },
+  ForeignFormat{ " vol ", 0, "Center-X: "sv, "volume of DGtal", kDgtalVol, ItkFormat::None, true },
+  ForeignFormat{ " isq rsq ", 0, "CTDATA-HEADER_V1"sv, "Scanco file", kScanco },
+  ForeignFormat{ " aim ",
+                 SIZE_MAX,
+                 ""sv,
+                 "Scanco AIM file",
+                 "convert it with ITK's module IOScanco (Python: pip install itk-ioscanco) to .nrrd, or export it as "
+                 "TIFF" },
   ForeignFormat{ "", 0, "\x93NUMPY"sv, "NumPy array of another extension", "name it {stem}.npy" },
   ForeignFormat{ " npz ",
                  SIZE_MAX,
                  ""sv,
                  "archive of NumPy arrays",
                  "save the one with the labels: numpy.save('{stem}.npy', numpy.load('{file}')['name'])" },
-  ForeignFormat{ " mat ",
-                 0,
-                 "MATLAB "sv,
-                 "MATLAB file",
-                 "write the labels from MATLAB with niftiwrite(labels, '{stem}.nii')" },
+  ForeignFormat{ " mat ", 0, "MATLAB 7.3"sv, "MATLAB file (7.3)", kMatlab73 },
+  ForeignFormat{ " mat ", 0, "MATLAB "sv, "MATLAB file", kMatlab },
   ForeignFormat{ " jpg jpeg ",
                  0,
                  "\xFF\xD8\xFF"sv,
@@ -138,7 +167,7 @@ constexpr std::array kFormats{
                  "convert it with 'c3d {file} -o {stem}.nii.gz' (Convert3D), or save it as .nii.gz in ITK-SNAP",
                  ItkFormat::Gipl },
   ForeignFormat{ " oif vsi stk ndpi svs scn dv r3d lei zvi ", SIZE_MAX, ""sv, "microscope file", kBioFormats },
-  ForeignFormat{ " n5 ", SIZE_MAX, ""sv, "N5 store", "open it in Fiji and save its labels as TIFF" },
+  ForeignFormat{ " n5 ", SIZE_MAX, ""sv, "N5 store", kN5 },
   ForeignFormat{ " par rec ",
                  SIZE_MAX,
                  ""sv,
@@ -177,9 +206,13 @@ RefuseBruker(const std::filesystem::path & file)
 std::string
 Filled(std::string_view advice, const std::filesystem::path & path)
 {
-  std::string                                    text(advice);
-  const std::pair<std::string_view, std::string> words[] = { { "{file}", Printable(path.filename().string(), 200) },
-                                                             { "{stem}", Printable(path.stem().string(), 200) } };
+  std::string text(advice);
+  // Who copies a line must not run what a name says.
+  const auto plain = [](const std::string & name, const char * otherwise) {
+    return name.find_first_of("'\"\\`$;&|<>(){}*?! \t") == std::string::npos ? Printable(name, 200) : otherwise;
+  };
+  const std::pair<std::string_view, std::string> words[] = { { "{file}", plain(path.filename().string(), "FILE") },
+                                                             { "{stem}", plain(path.stem().string(), "OUT") } };
   for (const auto & [word, name] : words)
   {
     for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + name.size()))
@@ -322,7 +355,7 @@ RefuseForeignFolder(const std::filesystem::path & path)
   std::error_code ignored;
   if (std::filesystem::exists(path / "attributes.json", ignored))
   {
-    RefuseInput(path, "N5 store, not read directly", "open it in Fiji and save its labels as TIFF");
+    RefuseInput(path, "N5 store, not read directly", Filled(kN5, path.has_filename() ? path : path.parent_path()));
   }
   RefuseBruker(path / "2dseq");
   for (const auto & file : FirstFiles(path))

@@ -173,9 +173,7 @@ LabelAssembler::IsRenumbered() const
 std::vector<double>
 LabelAssembler::PassedOver() const
 {
-  const auto & collector = m_State->collector;
-  return collector ? std::vector<double>(collector->PassedOver().begin(), collector->PassedOver().end())
-                   : std::vector<double>();
+  return m_State->collector ? m_State->collector->PassedOver() : std::vector<double>();
 }
 
 std::vector<LabelShape>

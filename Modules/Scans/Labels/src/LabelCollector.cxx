@@ -75,7 +75,7 @@ LabelCollector::LabelCollector(const StoredVoxels & scan, const LabelChoice & ch
                             Number(m_Threshold->first),
                             ":",
                             Number(m_Threshold->second),
-                            ": the lower bound comes first"));
+                            ": put the lower bound first"));
     }
     if (choice.labels != "all" || layers)
     {

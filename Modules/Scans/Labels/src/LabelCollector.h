@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <set>
 #include <unordered_map>
 #include <vector>
@@ -49,10 +50,12 @@ public:
   TakeShapes();
 
   /** Values below 0, taken as background because labels were named. */
-  const std::set<double> &
+  std::vector<double>
   PassedOver() const
   {
-    return m_PassedOver;
+    std::vector<double> values(m_PassedOver.begin(), m_PassedOver.end());
+    values.resize(values.size() + (m_PassesNan ? 1 : 0), std::numeric_limits<double>::quiet_NaN());
+    return values;
   }
 
   const LabelNaming &
@@ -142,6 +145,7 @@ private:
   bool                                     m_ZeroIsBackground;
   std::vector<Table>                       m_Tables;
   std::set<double>                         m_PassedOver; ///< values below 0
+  bool                                     m_PassesNan = false;
   std::vector<Found>                       m_Found;
   std::vector<Target>                      m_Targets;
   std::vector<std::int32_t>                m_Touched;

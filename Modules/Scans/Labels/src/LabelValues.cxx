@@ -49,7 +49,8 @@ LabelCollector::RefuseValue(double value, const char * what, std::int32_t x, std
   RefuseInput(m_Scan.path,
               Text("value ", Number(value), " at voxel (", x, ",", y, ",", z, ") ", what),
               Text("labels are whole numbers from 0 up; ",
-                   value < 0 ? "name those to take, such as --labels 1; " : "",
+                   value < 0 || std::isnan(value) ? "name those to take, such as --labels 1; " : "",
+                   value > 0 && value < 1 ? "for a mask of 0 and 1 give --threshold 0.5:inf, " : "",
                    "for a grey scan give --threshold LO:HI"));
 }
 
@@ -89,7 +90,8 @@ LabelCollector::WholeNumber(std::uint64_t bits, std::int32_t x, std::int32_t y, 
   return static_cast<std::int64_t>(value);
 }
 
-// Below 0 files keep what is to be passed over (-1: ignore). Where labels are named nothing needs to be guessed.
+// Below 0, or as no number, files keep what is to be passed over (-1: ignore; NaN: outside). Where labels are named
+// nothing needs to be guessed.
 bool
 LabelCollector::IsPassedOver(std::uint64_t bits)
 {
@@ -98,6 +100,11 @@ LabelCollector::IsPassedOver(std::uint64_t bits)
     return false;
   }
   const double value = ScaledValue(m_Scan, Value(bits));
+  if (std::isnan(value))
+  {
+    m_PassesNan = true;
+    return true;
+  }
   if (!(value < 0) || value != std::floor(value) || !std::isfinite(value))
   {
     return false;

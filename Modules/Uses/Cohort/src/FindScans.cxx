@@ -111,7 +111,7 @@ Walk(const fs::path &           folder,
   {
     return; // what a batch has made of a scan: its maps and pictures are no scans of this one
   }
-  if (IsZarr(folder))
+  if (IsZarr(folder) || IsPrecomputed(folder))
   {
     scans.push_back(folder.string());
     return;
@@ -200,7 +200,8 @@ AddInput(const fs::path &        input,
     Walk(folder, output, scans, passedOver);
     if (scans.empty())
     {
-      throw InputError(input.string() + ": no scan in this folder");
+      throw InputError(input.string() +
+                       ": no scan in this folder; see 'voxelcore batch --help' for what counts as one");
     }
     for (const std::string & scan : scans)
     {
@@ -220,7 +221,7 @@ AddInput(const fs::path &        input,
   const std::vector<std::string> matches = MatchesOf(input);
   if (matches.empty())
   {
-    throw InputError(input.string() + ": no such file, and nothing that matches");
+    throw InputError(input.string() + ": no such file, and nothing that matches; check its name");
   }
   for (const std::string & match : matches)
   {

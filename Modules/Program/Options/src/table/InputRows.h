@@ -129,7 +129,7 @@ inline constexpr auto kInputRows = std::to_array<Parameter>({
     "",
     false,
     kReadsValues,
-    "Read this array of an HDF5 file that holds several" },
+    "Read this array of an HDF5 or .vti file that holds several" },
   { "cap", "--cap", Flag, "", "", false, kReads | kVoxelize, "Close the holes of a mesh" },
   { "crop",
     "--crop",

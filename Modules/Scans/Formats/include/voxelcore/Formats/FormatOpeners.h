@@ -7,7 +7,7 @@
 //   MetaImage   no spacing becomes 1 mm; comes whole where it is packed
 //   TIFF        no distance between slices, tiles become colours, pages counted with 16 bits; comes whole
 //   LSM         crashes on thumbnails, metres are millimetres
-//   MGH, NumPy, Zarr, bare voxels with a text beside them, folders of slices: unknown
+//   MGH, NumPy, Zarr, precomputed, VTK in XML, bare voxels with a text beside them, folders of slices: unknown
 // All else that ITK reads goes through it (ItkProcess.h).
 
 #include "voxelcore/Formats/ScanFile.h"
@@ -32,6 +32,9 @@ OpenMgh(const std::filesystem::path & path, const ReadOptions & options);
 /** An array of NumPy's, .npy: the index that changes fastest is i. */
 ScanFile
 OpenNumpy(const std::filesystem::path & path, const ReadOptions & options);
+/** Image data of VTK in XML, .vti; of several arrays options.dataset names one, else it is the active scalars. */
+ScanFile
+OpenVti(const std::filesystem::path & path, const ReadOptions & options);
 ScanFile
 OpenTiff(const std::filesystem::path & path, const ReadOptions & options);
 /** Bare voxels, by options.raw or by a text beside them. */
@@ -50,6 +53,16 @@ OpenSlices(const std::filesystem::path & path, const ReadOptions & options);
 /** A Zarr store, an image or an array in it. Only chunks that options.crop touches are read; beyond it voxels are 0. */
 ScanFile
 OpenZarr(const std::filesystem::path & path, const ReadOptions & options);
+/** A volume of Neuroglancer's in a local folder ("precomputed"): raw or compressed_segmentation, packed by gzip or not,
+ *  sharded or not. Only chunks that options.crop touches are read; beyond it voxels are 0. */
+ScanFile
+OpenPrecomputed(const std::filesystem::path & path, const ReadOptions & options);
+/** Whether a folder holds one: it has a file `info` that speaks of scales. */
+bool
+IsPrecomputed(const std::filesystem::path & folder);
+/** Its `info`, and chunks of the part that options choose. */
+std::vector<std::filesystem::path>
+PrecomputedFiles(const std::filesystem::path & path, const ReadOptions & options);
 /** Whether a folder belongs to a Zarr store: it is read as a scan, and what lies in it is its own. */
 bool
 IsZarr(const std::filesystem::path & folder);
@@ -66,7 +79,7 @@ NiftiPartner(const std::filesystem::path & path);
 /** Metadata and chunks of the part that options choose. */
 std::vector<std::filesystem::path>
 ZarrFiles(const std::filesystem::path & path, const ReadOptions & options);
-/** Whether a folder holds a slice: a TIFF, PNG or BMP file. */
+/** Whether a folder holds a slice: a TIFF, PNG or BMP file, or JPEG files and, but for texts, nothing else. */
 bool
 HasSlices(const std::filesystem::path & folder);
 /** The slices that a folder or pattern stands for, in natural order. */
@@ -81,10 +94,12 @@ enum class ScanKind : std::uint8_t
   MetaImage,
   Mgh,
   Numpy,
+  Vti,
   Tiff,
-  Picture, ///< one slice: .png .bmp
+  Picture, ///< one slice: .png .bmp .jpg
   Slices,
   Zarr,
+  Precomputed,
   Unknown
 };
 ScanKind

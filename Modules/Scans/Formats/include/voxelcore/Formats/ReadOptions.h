@@ -21,7 +21,7 @@ struct ReadOptions
   std::optional<std::int64_t> volume;             ///< which volume of a 4-D file, counted from 0
   std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
   std::optional<std::int64_t> level;              ///< which resolution of an OME-Zarr image, from 0, the finest
-  std::optional<std::string>  dataset;            ///< path of an array in an HDF5 file
+  std::optional<std::string>  dataset;            ///< an array of an HDF5 or .vti file
   bool                        cap = false;        ///< close the holes of a mesh
   std::optional<RawLayout>    raw;                ///< the file is bare voxels of this layout, whatever its name
 };

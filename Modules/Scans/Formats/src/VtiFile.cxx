@@ -1,0 +1,676 @@
+// VTK's image data in XML, .vti: values of points or of cells, as text, base64 or raw, plain or packed by zlib. VTK's
+// own reader allocates what the header says, and comes whole; here every count is held against what the file has.
+
+#include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Formats/FormatOpeners.h"
+
+#include <expat.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace voxelcore
+{
+namespace
+{
+
+using Attributes = std::map<std::string, std::string>;
+using Bytes = std::vector<std::byte>;
+
+[[noreturn]] void
+RefuseVti(const std::filesystem::path & path, const std::string & what)
+{
+  RefuseInput(path, what, "the file is damaged or cut off: write it anew");
+}
+
+struct VtiArray
+{
+  Attributes  attributes;
+  bool        ofCells = false;
+  std::string text; ///< between its tags
+};
+
+/** What stands before the appended data. */
+struct VtiHeader
+{
+  Attributes            file;
+  Attributes            image;
+  Attributes            piece;
+  std::size_t           pieces = 0;
+  Attributes            scalars[2]; ///< of point data and cell data: the attributes of their tags
+  std::vector<VtiArray> arrays;
+  bool                  isAppendedRaw = false;
+  std::uint64_t         appendedAt = 0; ///< behind the underscore; 0: there are none
+};
+
+std::string
+AttributeOf(const Attributes & attributes, const char * name, const char * otherwise = "")
+{
+  const auto found = attributes.find(name);
+  return found == attributes.end() ? otherwise : found->second;
+}
+
+/** Walks through the tags, as expat calls. No exception may pass through expat: what is wrong is kept. */
+class VtiWalk
+{
+public:
+  explicit VtiWalk(const std::filesystem::path & path)
+    : m_Path(path)
+    , m_Parser(XML_ParserCreate(nullptr), &XML_ParserFree)
+  {
+    XML_SetUserData(m_Parser.get(), this);
+    XML_SetElementHandler(m_Parser.get(), &VtiWalk::OnBegin, &VtiWalk::OnEnd);
+    XML_SetCharacterDataHandler(m_Parser.get(), &VtiWalk::OnText);
+    XML_SetStartDoctypeDeclHandler(m_Parser.get(), &VtiWalk::OnDoctype);
+    const auto        stream = OpenBytes(path, 0, Packing::Plain);
+    std::vector<char> part(std::size_t{ 1 } << 20);
+    for (bool more = true; more && m_Appended == 0 && m_Trouble.empty();)
+    {
+      const std::size_t got = stream->ReadSome(reinterpret_cast<std::byte *>(part.data()), part.size());
+      more = got > 0;
+      const bool good = XML_Parse(m_Parser.get(), part.data(), static_cast<int>(got), more ? 0 : 1) == XML_STATUS_OK;
+      if (!good && m_Appended == 0 && m_Trouble.empty())
+      {
+        m_Trouble = Text("line ",
+                         XML_GetCurrentLineNumber(m_Parser.get()),
+                         ": ",
+                         XML_ErrorString(XML_GetErrorCode(m_Parser.get())));
+      }
+    }
+    if (!m_Trouble.empty())
+    {
+      RefuseVti(path, m_Trouble);
+    }
+    if (m_Appended > 0)
+    {
+      FindUnderscore();
+    }
+  }
+
+  VtiHeader header;
+
+private:
+  static void
+  OnBegin(void * self, const char * name, const char ** attributes)
+  {
+    auto & walk = *static_cast<VtiWalk *>(self);
+    walk.Guarded([&] {
+      Attributes all;
+      for (; *attributes != nullptr; attributes += 2)
+      {
+        all.emplace(attributes[0], attributes[1]);
+      }
+      walk.Begin(name, std::move(all));
+    });
+  }
+  static void
+  OnEnd(void * self, const char *)
+  {
+    auto & walk = *static_cast<VtiWalk *>(self);
+    walk.m_Tags.pop_back();
+    walk.m_IsInArray = false;
+  }
+  static void
+  OnText(void * self, const char * text, int length)
+  {
+    auto & walk = *static_cast<VtiWalk *>(self);
+    if (walk.m_IsInArray && walk.m_Tags.back() == "DataArray")
+    {
+      walk.Guarded([&] { walk.header.arrays.back().text.append(text, static_cast<std::size_t>(length)); });
+    }
+  }
+  static void
+  OnDoctype(void * self, const char *, const char *, const char *, int)
+  {
+    static_cast<VtiWalk *>(self)->Stop("it declares a document type, which no VTK file does");
+  }
+
+  template <typename Work>
+  void
+  Guarded(const Work & work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const std::bad_alloc &)
+    {
+      Stop("it is larger than the memory");
+    }
+  }
+
+  void
+  Stop(const std::string & trouble)
+  {
+    m_Trouble = m_Trouble.empty() ? trouble : m_Trouble;
+    XML_StopParser(m_Parser.get(), XML_FALSE);
+  }
+
+  void
+  Begin(const std::string & name, Attributes attributes)
+  {
+    const std::string within = m_Tags.empty() ? "" : m_Tags.back();
+    m_Tags.push_back(name);
+    m_IsInArray = false;
+    if (m_Tags.size() > 64)
+    {
+      Stop("its tags are nested too deeply");
+    }
+    else if (name == "VTKFile")
+    {
+      header.file = std::move(attributes);
+    }
+    else if (name == "ImageData")
+    {
+      header.image = std::move(attributes);
+    }
+    else if (name == "Piece")
+    {
+      ++header.pieces;
+      header.piece = std::move(attributes);
+    }
+    else if (name == "PointData" || name == "CellData")
+    {
+      header.scalars[name == "CellData" ? 1 : 0] = std::move(attributes);
+    }
+    else if (name == "DataArray" && (within == "PointData" || within == "CellData"))
+    {
+      m_IsInArray = true;
+      header.arrays.push_back({ std::move(attributes), within == "CellData", "" });
+    }
+    else if (name == "AppendedData")
+    {
+      const std::string encoding = AttributeOf(attributes, "encoding");
+      if (encoding != "raw" && encoding != "base64")
+      {
+        Stop("its appended data are neither raw nor base64");
+        return;
+      }
+      header.isAppendedRaw = encoding == "raw";
+      // What follows may be no XML.
+      m_Appended = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(m_Parser.get())) +
+                   static_cast<std::uint64_t>(XML_GetCurrentByteCount(m_Parser.get()));
+      XML_StopParser(m_Parser.get(), XML_FALSE);
+    }
+  }
+
+  void
+  FindUnderscore()
+  {
+    std::string begin(256, ' ');
+    begin.resize(OpenBytes(m_Path, m_Appended, Packing::Plain)
+                   ->ReadSome(reinterpret_cast<std::byte *>(begin.data()), begin.size()));
+    const std::size_t mark = begin.find_first_not_of(" \r\n\t");
+    if (mark == std::string::npos || begin[mark] != '_')
+    {
+      RefuseVti(m_Path, "its appended data do not begin with '_'");
+    }
+    header.appendedAt = m_Appended + mark + 1;
+  }
+
+  std::filesystem::path                                        m_Path;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> m_Parser;
+  std::vector<std::string>                                     m_Tags;
+  bool                                                         m_IsInArray = false;
+  std::string                                                  m_Trouble;
+  std::uint64_t                                                m_Appended = 0;
+};
+
+/** Bytes in memory. */
+class VtiMemoryStream : public ByteStream
+{
+public:
+  VtiMemoryStream(const std::filesystem::path & path, Bytes bytes)
+    : ByteStream(path)
+    , m_Bytes(std::move(bytes))
+  {}
+
+  std::size_t
+  ReadSome(std::byte * to, std::size_t count) override
+  {
+    const std::size_t now = std::min(count, m_Bytes.size() - m_At);
+    std::memcpy(to, m_Bytes.data() + m_At, now);
+    m_At += now;
+    return now;
+  }
+  bool
+  Finish() override
+  {
+    return m_At < m_Bytes.size();
+  }
+
+private:
+  Bytes       m_Bytes;
+  std::size_t m_At = 0;
+};
+
+/** Blocks packed by zlib, of equal size but the last; their sizes stand before them. */
+class BlockStream : public ByteStream
+{
+public:
+  BlockStream(const std::filesystem::path & path, std::unique_ptr<ByteStream> packed, std::size_t width, bool isBig)
+    : ByteStream(path)
+    , m_Packed(std::move(packed))
+    , m_Width(width)
+    , m_IsBig(isBig)
+  {
+    m_Blocks = Number();
+    m_BlockSize = Number();
+    m_LastSize = Number();
+    constexpr std::uint64_t most = std::uint64_t{ 1 } << 30;
+    if (m_BlockSize > most || m_LastSize > most || m_Blocks > FileSize(path))
+    {
+      RefuseVti(path, "its packed blocks have sizes that cannot be");
+    }
+    for (std::uint64_t block = 0; block < m_Blocks; ++block)
+    {
+      m_Sizes.push_back(Number());
+    }
+  }
+
+  std::size_t
+  ReadSome(std::byte * to, std::size_t count) override
+  {
+    std::size_t done = 0;
+    while (done < count)
+    {
+      if (m_At == m_Block.size())
+      {
+        if (m_Next == m_Blocks)
+        {
+          break;
+        }
+        Unpack();
+      }
+      const std::size_t now = std::min(count - done, m_Block.size() - m_At);
+      std::memcpy(to + done, m_Block.data() + m_At, now);
+      done += now;
+      m_At += now;
+    }
+    return done;
+  }
+  bool
+  Finish() override
+  {
+    return m_At < m_Block.size() || m_Next < m_Blocks;
+  }
+
+private:
+  std::uint64_t
+  Number()
+  {
+    std::array<std::byte, 8> bytes{};
+    m_Packed->Read(bytes.data(), m_Width);
+    std::uint64_t number = 0;
+    for (std::size_t i = 0; i < m_Width; ++i)
+    {
+      number = number << 8U | std::to_integer<std::uint64_t>(bytes[m_IsBig ? i : m_Width - 1 - i]);
+    }
+    return number;
+  }
+
+  void
+  Unpack()
+  {
+    const std::uint64_t size = m_Next + 1 == m_Blocks && m_LastSize != 0 ? m_LastSize : m_BlockSize;
+    const std::uint64_t packed = m_Sizes[static_cast<std::size_t>(m_Next)];
+    if (packed > FileSize(m_Path) || size > packed * LargestExpansion(Packing::Deflate))
+    {
+      RefuseVti(m_Path, Text("its packed block ", m_Next, " has a size that cannot be"));
+    }
+    Bytes from(static_cast<std::size_t>(packed));
+    m_Packed->Read(from.data(), from.size());
+    m_Block.resize(static_cast<std::size_t>(size));
+    auto got = static_cast<uLongf>(size);
+    if (uncompress(reinterpret_cast<Bytef *>(m_Block.data()),
+                   &got,
+                   reinterpret_cast<const Bytef *>(from.data()),
+                   static_cast<uLong>(packed)) != Z_OK ||
+        got != size)
+    {
+      RefuseVti(m_Path, Text("its packed block ", m_Next, " does not unpack to its size"));
+    }
+    m_At = 0;
+    ++m_Next;
+  }
+
+  std::unique_ptr<ByteStream> m_Packed;
+  std::size_t                 m_Width;
+  bool                        m_IsBig;
+  std::uint64_t               m_Blocks = 0;
+  std::uint64_t               m_BlockSize = 0;
+  std::uint64_t               m_LastSize = 0;
+  std::vector<std::uint64_t>  m_Sizes;
+  std::uint64_t               m_Next = 0;
+  Bytes                       m_Block;
+  std::size_t                 m_At = 0;
+};
+
+/** The first bytes that a run of base64 stands for, at most `most`; `text` then begins with the next run. */
+Bytes
+FromBase64(const std::filesystem::path & path, std::string_view & text, std::uint64_t most)
+{
+  Bytes bytes;
+  bool  isAtEnd = false;
+  while (bytes.size() < most && !isAtEnd)
+  {
+    text.remove_prefix(std::min(text.find_first_not_of(" \r\n\t"), text.size()));
+    if (text.size() < 4)
+    {
+      break;
+    }
+    unsigned    bits = 0;
+    std::size_t padded = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+      static constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+      const std::size_t                 six = letters.find(text[i]);
+      padded += text[i] == '=' ? 1 : 0;
+      isAtEnd = isAtEnd || (six == std::string_view::npos && !(text[i] == '=' && i > 1));
+      bits = bits << 6U | (six == std::string_view::npos ? 0U : static_cast<unsigned>(six));
+    }
+    if (isAtEnd)
+    {
+      break;
+    }
+    text.remove_prefix(4);
+    for (std::size_t i = 0; i < 3 - std::min<std::size_t>(padded, 2); ++i)
+    {
+      bytes.push_back(static_cast<std::byte>(bits >> (16 - 8 * i) & 255U));
+    }
+    isAtEnd = padded > 0; // of this run
+  }
+  if (bytes.size() < most && most != UINT64_MAX)
+  {
+    RefuseVti(path, "its base64 ends too early");
+  }
+  return bytes;
+}
+
+PixelType
+VtkTypeOf(const std::filesystem::path & path, const std::string & name)
+{
+  static const std::map<std::string, PixelType> known{
+    { "UInt8", PixelType::UInt8 },    { "Int8", PixelType::Int8 },     { "UInt16", PixelType::UInt16 },
+    { "Int16", PixelType::Int16 },    { "UInt32", PixelType::UInt32 }, { "Int32", PixelType::Int32 },
+    { "UInt64", PixelType::UInt64 },  { "Int64", PixelType::Int64 },   { "Float32", PixelType::Float32 },
+    { "Float64", PixelType::Float64 }
+  };
+  const auto found = known.find(name);
+  if (found == known.end())
+  {
+    RefuseInput(path, Text("an array of type '", Printable(name, 30), "'"), "save it with one whole number a voxel");
+  }
+  return found->second;
+}
+
+template <std::size_t Count>
+std::array<double, Count>
+VtiNumbers(const std::filesystem::path & path, const Attributes & attributes, const char * name, const char * otherwise)
+{
+  std::array<double, Count> numbers{};
+  const std::string         text = AttributeOf(attributes, name, otherwise);
+  const auto                words = Words(text);
+  for (std::size_t i = 0; i < Count; ++i)
+  {
+    const auto value = words.size() == Count ? ParseReal(words[i]) : std::nullopt;
+    if (!value || !std::isfinite(*value))
+    {
+      RefuseVti(path, Text("its ", name, " is not ", Count, " numbers"));
+    }
+    numbers[i] = *value;
+  }
+  return numbers;
+}
+
+/** The array that is meant: by name, the active scalars, or the only one. */
+const VtiArray &
+ChooseArray(const std::filesystem::path & path, const VtiHeader & header, const ReadOptions & options)
+{
+  std::string names;
+  for (const VtiArray & array : header.arrays)
+  {
+    names += (names.empty() ? "" : ", ") + Printable(AttributeOf(array.attributes, "Name"), 60);
+  }
+  const auto named = [&](const std::string & name, bool any, bool ofCells) -> const VtiArray * {
+    const auto found = std::ranges::find_if(header.arrays, [&](const VtiArray & array) {
+      return AttributeOf(array.attributes, "Name") == name && (any || array.ofCells == ofCells);
+    });
+    return found == header.arrays.end() ? nullptr : &*found;
+  };
+  if (options.dataset)
+  {
+    if (const VtiArray * array = named(*options.dataset, true, false))
+    {
+      return *array;
+    }
+    RefuseInput(path, Text("there is no array '", Printable(*options.dataset, 60), "'"), Text("give one of ", names));
+  }
+  if (header.arrays.empty())
+  {
+    RefuseInput(path, "image data without an array", "save it with the array of labels");
+  }
+  if (header.arrays.size() == 1)
+  {
+    return header.arrays.front();
+  }
+  for (const bool ofCells : { false, true })
+  {
+    const std::string active = AttributeOf(header.scalars[ofCells ? 1 : 0], "Scalars");
+    if (const VtiArray * array = active.empty() ? nullptr : named(active, false, ofCells))
+    {
+      return *array;
+    }
+  }
+  RefuseInput(path, Text("several arrays (", names, ")"), "choose one with --dataset NAME");
+}
+
+/** Numbers as text, as 64 bits each. */
+Bytes
+ValuesFromText(const std::filesystem::path & path, std::string_view text, bool isReal)
+{
+  Bytes bytes;
+  for (const std::string_view word : Words(text))
+  {
+    const auto put = [&](auto value) {
+      const auto * const from = reinterpret_cast<const std::byte *>(&value);
+      bytes.insert(bytes.end(), from, from + sizeof(value));
+    };
+    const auto whole = ParseInteger(word);
+    const auto real = ParseReal(word);
+    if (isReal ? !real : !whole)
+    {
+      RefuseVti(path, Text("'", Printable(word, 30), "' among its numbers"));
+    }
+    if (isReal)
+    {
+      put(*real);
+    }
+    else
+    {
+      put(*whole);
+    }
+  }
+  return bytes;
+}
+
+/** The values of an array, as a stream. */
+std::unique_ptr<ByteStream>
+OpenArray(const std::filesystem::path & path, const VtiHeader & header, const VtiArray & array, std::uint64_t expected)
+{
+  const bool        isBig = AttributeOf(header.file, "byte_order", "LittleEndian") == "BigEndian";
+  const std::size_t width = AttributeOf(header.file, "header_type", "UInt32") == "UInt64" ? 8 : 4;
+  const std::string compressor = AttributeOf(header.file, "compressor");
+  const std::string format = AttributeOf(array.attributes, "format", "ascii");
+  if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
+  {
+    RefuseInput(path, Text("packed by ", Printable(compressor, 40)), "save it packed by zlib, or not packed");
+  }
+  std::unique_ptr<ByteStream> stored;
+  const auto                  offset = ParseInteger(AttributeOf(array.attributes, "offset", "0"));
+  if (format == "appended" && (header.appendedAt == 0 || !offset || *offset < 0))
+  {
+    RefuseVti(path, "its appended data are not there");
+  }
+  const std::uint64_t from = format == "appended" ? header.appendedAt + static_cast<std::uint64_t>(*offset) : 0;
+  if (from > FileSize(path))
+  {
+    RefuseVti(path, "an array lies beyond its end");
+  }
+  if (format == "appended" && header.isAppendedRaw)
+  {
+    stored = OpenBytes(path, from, Packing::Plain);
+  }
+  else
+  {
+    std::string      appended;
+    std::string_view text = array.text;
+    if (format == "appended")
+    {
+      appended.resize(static_cast<std::size_t>(FileSize(path) - from));
+      OpenBytes(path, from, Packing::Plain)->Read(reinterpret_cast<std::byte *>(appended.data()), appended.size());
+      text = appended;
+    }
+    // Packed, the sizes of blocks are a run of their own; else there is one run.
+    Bytes bytes;
+    if (compressor.empty())
+    {
+      bytes = FromBase64(path, text, width + expected);
+    }
+    else
+    {
+      std::string_view again = text;
+      const Bytes      first = FromBase64(path, again, 3 * width);
+      std::uint64_t    blocks = 0;
+      for (std::size_t i = 0; i < width; ++i)
+      {
+        blocks = blocks << 8U | std::to_integer<std::uint64_t>(first[isBig ? i : width - 1 - i]);
+      }
+      if (blocks > FileSize(path))
+      {
+        RefuseVti(path, "its packed blocks have sizes that cannot be");
+      }
+      bytes = FromBase64(path, text, (3 + blocks) * width);
+      bytes.resize(static_cast<std::size_t>((3 + blocks) * width));
+      const Bytes packed = FromBase64(path, text, UINT64_MAX);
+      bytes.insert(bytes.end(), packed.begin(), packed.end());
+    }
+    stored = std::make_unique<VtiMemoryStream>(path, std::move(bytes));
+  }
+  if (!compressor.empty())
+  {
+    return std::make_unique<BlockStream>(path, std::move(stored), width, isBig);
+  }
+  std::array<std::byte, 8> bytes{};
+  stored->Read(bytes.data(), width);
+  std::uint64_t size = 0;
+  for (std::size_t i = 0; i < width; ++i)
+  {
+    size = size << 8U | std::to_integer<std::uint64_t>(bytes[isBig ? i : width - 1 - i]);
+  }
+  // 32 bits hold the size of arrays above 4 GB no longer.
+  if (size != (width == 4 ? expected & 0xFFFFFFFFU : expected))
+  {
+    RefuseVti(path, Text("an array of ", size, " bytes, where ", expected, " belong"));
+  }
+  return stored;
+}
+
+} // namespace
+
+ScanFile
+OpenVti(const std::filesystem::path & path, const ReadOptions & options)
+{
+  const VtiHeader header = VtiWalk(path).header;
+  if (AttributeOf(header.file, "type") != "ImageData" || header.image.empty())
+  {
+    RefuseInput(path, "a VTK file that is no image data", "save it as image data (vtkXMLImageDataWriter)");
+  }
+  if (header.pieces != 1)
+  {
+    RefuseInput(path, Text("image data in ", header.pieces, " pieces"), "save it as one piece");
+  }
+  const VtiArray & array = ChooseArray(path, header, options);
+  ScanFile         scan;
+  scan.path = path;
+  scan.format = "VTK image data";
+  const auto extent = VtiNumbers<6>(path, header.piece, "Extent", AttributeOf(header.image, "WholeExtent").c_str());
+  const auto spacing = VtiNumbers<3>(path, header.image, "Spacing", "1 1 1");
+  const auto direction = VtiNumbers<9>(path, header.image, "Direction", "1 0 0 0 1 0 0 0 1");
+  const auto origin = VtiNumbers<3>(path, header.image, "Origin", "0 0 0");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double first = extent[2 * axis];
+    const double last = extent[2 * axis + 1];
+    if (std::abs(first) > 0x1p31 || std::abs(last) > 0x1p31 || first != std::floor(first) || last != std::floor(last) ||
+        last < first)
+    {
+      RefuseVti(path, "its extent makes no sense");
+    }
+    scan.geometry.size[axis] = static_cast<std::int64_t>(last - first) + (array.ofCells ? 0 : 1);
+  }
+  std::array<Vector3, 3> axes{};
+  Vector3                place = origin;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    // Cells lie between points; their place is their middle.
+    const double steps = extent[2 * axis] + (array.ofCells ? 0.5 : 0);
+    for (std::size_t row = 0; row < 3; ++row)
+    {
+      axes[axis][row] = direction[3 * row + axis];
+      place[row] += direction[3 * row + axis] * spacing[axis] * steps;
+    }
+  }
+  const std::string name = AttributeOf(array.attributes, "type");
+  scan.type = VtkTypeOf(path, name);
+  const auto components = ParseInteger(AttributeOf(array.attributes, "NumberOfComponents", "1"));
+  if (!components || *components < 1 || *components > 1 << 16)
+  {
+    RefuseVti(path, "its array has a number of components that cannot be");
+  }
+  const std::uint64_t component =
+    ChooseComponent(path, static_cast<std::uint64_t>(*components), "array of vectors", options);
+  ChooseVolume(path, 1, options);
+  scan.interleaved = static_cast<std::size_t>(*components);
+  scan.component = scan.interleaved > 1 ? static_cast<std::ptrdiff_t>(component) : scan.component;
+  const bool          isText = AttributeOf(array.attributes, "format", "ascii") == "ascii";
+  const std::uint64_t possible = FileSize(path) * (isText ? 8 : LargestExpansion(Packing::Deflate));
+  const bool          isReal = scan.type == PixelType::Float32 || scan.type == PixelType::Float64;
+  if (isText)
+  {
+    scan.storedType = LowerCase(name);
+    scan.type = isReal ? PixelType::Float64 : PixelType::Int64;
+  }
+  const std::uint64_t bytesPerVoxel = PixelBytes(scan.type) * scan.interleaved;
+  const std::uint64_t expected = CheckSize(path, scan.geometry.size, bytesPerVoxel, possible) * bytesPerVoxel;
+  scan.swapBytes = !isText && (AttributeOf(header.file, "byte_order", "LittleEndian") == "BigEndian") !=
+                                (std::endian::native == std::endian::big);
+  if (isText)
+  {
+    Bytes bytes = ValuesFromText(path, array.text, isReal);
+    if (bytes.size() != expected)
+    {
+      RefuseVti(path, Text(bytes.size() / 8, " numbers, where ", expected / 8, " belong"));
+    }
+    scan.voxels = std::make_unique<VtiMemoryStream>(path, std::move(bytes));
+  }
+  else
+  {
+    scan.voxels = OpenArray(path, header, array, expected);
+    scan.hasMore = true; // other arrays
+  }
+  if (array.ofCells)
+  {
+    scan.notes.push_back("values of cells: a cell is a voxel");
+  }
+  SetGeometry(scan, axes, { spacing[0], spacing[1], spacing[2] }, place, options);
+  return scan;
+}
+
+} // namespace voxelcore
