@@ -192,7 +192,7 @@ RequireFiniteValues(const ArrayView & array, const VoxelBox & part)
       {
         throw InputError("the array: at (" + std::to_string(part.lower[0] + (at - row.begin())) + ", " +
                          std::to_string(j) + ", " + std::to_string(k) +
-                         ") its value is no finite number, so there is no surface at a grey value");
+                         ") its value is no finite number; set it to one, such as numpy.nan_to_num does");
       }
     }
   }

@@ -1,6 +1,8 @@
 #include "LabelFiles.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Imaging/LabelVolume.h"
+#include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/OutputTransaction.h"
 #include "voxelcore/Jobs/SkeletonFiles.h"
@@ -50,7 +52,11 @@ Save(const SkeletonOfLabel &       skeleton,
   {
     throw UsageError(path.string() + ": give a file, .vtp or .csv");
   }
-  SkeletonFiles            files(path, "the array", targets, transaction);
+  SkeletonFiles files(path, "the array", targets, transaction);
+  if (files.NeedsSurface() && !skeleton.surface)
+  {
+    throw UsageError("--also ma: a skeleton that was read has no medial surface; make it of the array");
+  }
   std::vector<std::string> notes;
   files.Add(report, 0, skeleton.part, files.NeedsSurface() ? skeleton.surface->part : ModelPart(), notes);
   files.Finish(report, notes);
@@ -74,21 +80,68 @@ SaveSwc(const SkeletonOfLabel &       skeleton,
   transaction.Commit();
 }
 
-std::shared_ptr<CoreOfLabel>
-ReadCore(const std::filesystem::path & path)
+ResultsRead
+ReadResults(const std::filesystem::path & path)
 {
-  MedialModel model = ReadModel(path);
-  auto        result = std::make_shared<CoreOfLabel>();
-  result->report = ParseProvenance(model.provenance, path.string());
-  if (model.parts.size() != 1 || result->report.labels.size() != 1)
+  ResultsRead   results;
+  SkeletonModel skeletons;
+  bool          areSkeletons = true;
+  try
   {
-    throw InputError(path.string() + ": holds " + std::to_string(model.parts.size()) +
-                     " labels; give a file with one, as 'voxelcore core -o FOLDER/' writes them");
+    skeletons = ReadSkeletonVtp(path);
   }
-  result->part = std::move(model.parts.front());
-  result->hasEdges = model.hasEdges;
-  result->refined = model.refined;
-  return result;
+  catch (const InputError &)
+  {
+    areSkeletons = false;
+  }
+  MedialModel model;
+  if (!areSkeletons)
+  {
+    model = ReadModel(path); // says what is wrong when it is neither
+  }
+  const CoreReport  report = ParseProvenance(areSkeletons ? skeletons.provenance : model.provenance, path.string());
+  const std::size_t count = areSkeletons ? skeletons.parts.size() : model.parts.size();
+  RequireFittingProvenance(report.labels.size() == count && report.skeleton.has_value() == areSkeletons, path);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    CoreReport one = report;
+    one.labels = { report.labels[i] };
+    const LabelRecord & record = one.labels.front();
+    if (!areSkeletons)
+    {
+      auto core = std::make_shared<CoreOfLabel>();
+      core->report = std::move(one);
+      core->part = std::move(model.parts[i]);
+      core->hasEdges = model.hasEdges;
+      core->refined = model.refined;
+      results.cores.push_back(std::move(core));
+      continue;
+    }
+    SkeletonPart & part = skeletons.parts[i];
+    RequireFittingProvenance(part.label == record.label && part.component == record.component && record.skeleton, path);
+    part.name = record.name;
+    part.network = record.skeleton->network;
+    part.table = MeasureBranches(part.graph, { one.skeleton->branches.root });
+    one.labels.front().skeleton->numbers = part.table.numbers;
+    auto skeleton = std::make_shared<SkeletonOfLabel>();
+    skeleton->part = std::move(part);
+    skeleton->report = std::move(one);
+    results.skeletons.push_back(std::move(skeleton));
+  }
+  return results;
+}
+
+std::map<std::int64_t, std::string>
+NamesOfLabels(const std::filesystem::path & path)
+{
+  std::map<std::int64_t, std::string> names;
+  const ReadOptions                   options;
+  const LabelMap                      volume = ReadLabelVolume(path, options);
+  for (const LabelShape & label : volume.labels)
+  {
+    names[label.value] = label.name;
+  }
+  return names;
 }
 
 } // namespace voxelcore

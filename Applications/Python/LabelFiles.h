@@ -4,6 +4,9 @@
 #include "LabelWork.h"
 
 #include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace voxelcore
 {
@@ -30,8 +33,19 @@ SaveSwc(const SkeletonOfLabel &       skeleton,
         bool                          force,
         const ProgressCallback &      progress);
 
-/** What `voxelcore core` wrote, when it holds one label. \throws InputError */
-std::shared_ptr<CoreOfLabel>
-ReadCore(const std::filesystem::path & path);
+/** What is in a .vtp file of `voxelcore core` or `voxelcore skeleton`, label by label. */
+struct ResultsRead
+{
+  std::vector<std::shared_ptr<CoreOfLabel>>     cores;
+  std::vector<std::shared_ptr<SkeletonOfLabel>> skeletons; ///< without the surfaces they were made of
+};
+
+/** \throws InputError */
+ResultsRead
+ReadResults(const std::filesystem::path & path);
+
+/** The names of a scan's labels by value, whether they are in the file or beside it. \throws InputError */
+std::map<std::int64_t, std::string>
+NamesOfLabels(const std::filesystem::path & path);
 
 } // namespace voxelcore

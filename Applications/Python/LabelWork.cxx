@@ -169,10 +169,9 @@ Read(const ArrayView &        array,
   }
   catch (const GreyScanError & error)
   {
-    const std::string range = OtsuRange(error.grey);
+    const std::string range = ProposedRange(error.grey);
     throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
-                     range.substr(0, range.find(':')) +
-                     ", numpy.inf) by Otsu, or give label= if its values are labels");
+                     range.substr(0, range.find(':')) + ", numpy.inf), or give label= if its values are labels");
   }
   if (options.reading.crop)
   {

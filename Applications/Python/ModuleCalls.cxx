@@ -8,10 +8,13 @@
 #include "voxelcore/Base/Progress.h"
 #include "voxelcore/Certified/CertifiedSkeleton.h"
 #include "voxelcore/Certified/CertifiedThickness.h"
+#include "voxelcore/Imaging/ScanRows.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <cstring>
+#include <map>
 #include <string>
 
 namespace py = pybind11;
@@ -56,7 +59,7 @@ ViewOf(const py::array & array)
     view.stride[axis] = array.strides(static_cast<py::ssize_t>(axis));
     if (view.size[axis] == 0)
     {
-      RefuseArray("it is empty");
+      RefuseArray("it is empty; give one with voxels");
     }
   }
   view.swapped = !type.attr("isnative").cast<bool>();
@@ -315,10 +318,59 @@ SaveSwcFile(const std::shared_ptr<SkeletonOfLabel> & skeleton, const std::string
   });
 }
 
-std::shared_ptr<CoreOfLabel>
-ReadCoreFile(const std::string & path)
+/** What kind of results a file has, and they. */
+py::tuple
+ReadResultFile(const std::string & path)
 {
-  return RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) { return ReadCore(path); });
+  const ResultsRead read =
+    RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) { return ReadResults(path); });
+  return read.skeletons.empty() ? py::make_tuple("core", read.cores) : py::make_tuple("skeleton", read.skeletons);
+}
+
+std::map<std::int64_t, std::string>
+NamesOfFile(const std::string & path)
+{
+  return RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) { return NamesOfLabels(path); });
+}
+
+/** A scan's values as they are stored, as an array [i, j, k] whose first index changes fastest, and its place. */
+py::dict
+ReadScanFile(const std::string & path)
+{
+  const auto rows = RunInOwnThread(0, py::none(), py::none(), [=](const ProgressCallback &) {
+    const ReadOptions options;
+    return std::make_shared<ScanRows>(path, options);
+  });
+  static const std::map<PixelType, const char *> types{ { PixelType::UInt8, "u1" },   { PixelType::Int8, "i1" },
+                                                        { PixelType::UInt16, "u2" },  { PixelType::Int16, "i2" },
+                                                        { PixelType::UInt32, "u4" },  { PixelType::Int32, "i4" },
+                                                        { PixelType::UInt64, "u8" },  { PixelType::Int64, "i8" },
+                                                        { PixelType::Float32, "f4" }, { PixelType::Float64, "f8" } };
+  const ImageGeometry &                          geometry = rows->Geometry();
+  const auto &                                   size = geometry.size;
+  const auto                                     type = py::dtype(types.at(rows->Type()));
+  py::array                                      array(type, std::vector<py::ssize_t>{ size[2], size[1], size[0] });
+  auto * const                                   to = static_cast<std::byte *>(array.mutable_data());
+  const std::size_t rowBytes = static_cast<std::size_t>(size[0]) * PixelBytes(rows->Type());
+  RunInOwnThread(0, py::none(), array, [=](const ProgressCallback & progress) {
+    const auto all = static_cast<std::uint64_t>(size[1]) * static_cast<std::uint64_t>(size[2]);
+    rows->Read(0, all, [&](const std::byte * row, std::uint64_t number) {
+      std::memcpy(to + number * rowBytes, row, rowBytes);
+      if (number % 1024 == 0)
+      {
+        ReportProgress(progress, "read", static_cast<double>(number) / static_cast<double>(all));
+      }
+    });
+    return true;
+  });
+  py::dict found;
+  found["array"] = array.attr("T");
+  found["spacing"] = geometry.unit == SpatialUnit::Voxels
+                       ? py::object(py::none())
+                       : py::object(py::make_tuple(geometry.spacing[0], geometry.spacing[1], geometry.spacing[2]));
+  found["origin"] = py::make_tuple(geometry.origin[0], geometry.origin[1], geometry.origin[2]);
+  found["direction"] = geometry.direction;
+  return found;
 }
 
 } // namespace
@@ -335,7 +387,9 @@ voxelcore::DefineCalls(py::module_ & module)
   module.def("save_core", &SaveCore);
   module.def("save_skeleton", &SaveSkeleton);
   module.def("save_swc", &SaveSwcFile);
-  module.def("read_core", &ReadCoreFile);
+  module.def("read_results", &ReadResultFile);
+  module.def("read_scan", &ReadScanFile);
+  module.def("label_names", &NamesOfFile);
   module.def("thickness", &ThicknessOfAnArray);
   module.def("sheets", &SheetsOfCore);
 }

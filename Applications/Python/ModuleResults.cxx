@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <map>
 #include <string>
 
 namespace py = pybind11;
@@ -291,6 +292,20 @@ DefineSkeleton(py::module_ & module)
                            })
     .def_property_readonly("face_offsets", [graph](const Handle & s) { return View(s, graph(s).faceOffsets); })
     .def_property_readonly("face_vertices", [graph](const Handle & s) { return View(s, graph(s).faceVertices); })
+    .def_property_readonly("names",
+                           [](const Handle & s) {
+                             std::map<std::int64_t, std::string> names;
+                             if (!s->part.network)
+                             {
+                               names[s->part.label] = s->part.name;
+                               return names;
+                             }
+                             for (const NetworkLabel & label : s->part.network->labels)
+                             {
+                               names[label.value] = label.name;
+                             }
+                             return names;
+                           })
     .def_property_readonly("point_labels", [graph](const Handle & s) { return View(s, graph(s).labels); })
     .def_property_readonly("branch_labels",
                            [](const Handle & s) {

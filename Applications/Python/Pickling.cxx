@@ -349,7 +349,7 @@ StateOf(const SkeletonOfLabel & skeleton)
   arrays(skeleton.report.labels.front().skeleton.value().cuts);
   return py::make_tuple(VoxelCoreVersion(),
                         StateOf(skeleton.report),
-                        StateOf(*skeleton.surface),
+                        skeleton.surface ? py::object(StateOf(*skeleton.surface)) : py::object(py::none()),
                         part.label,
                         part.component,
                         part.name,
@@ -365,7 +365,7 @@ SkeletonOf(const py::tuple & state)
   RequireState(state, 7);
   auto skeleton = std::make_shared<SkeletonOfLabel>();
   skeleton->report = ReportFrom(state[1]);
-  skeleton->surface = CoreOf(state[2]);
+  skeleton->surface = state[2].is_none() ? nullptr : CoreOf(state[2]);
   SkeletonPart & part = skeleton->part;
   part.label = state[3].cast<std::int64_t>();
   part.component = state[4].cast<std::int64_t>();

@@ -58,9 +58,11 @@ def test_a_graph_has_the_nodes_branches_and_topology(skeleton):
     assert networkx.node_link_data(networkx.Graph(networkx.create_empty_copy(graph)))
 
 
-def test_a_frame_has_the_columns_of_measure(skeleton):
+def test_a_frame_has_the_columns_of_the_table(skeleton):
     frame = skeleton.to_pandas()
-    assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == list(skeleton.measure())
+    assert isinstance(frame, pandas.DataFrame) and list(frame.columns) == list(voxelcore.columns())
+    for name, values in skeleton.measure().items():
+        assert numpy.array_equal(frame[name], values, equal_nan=values.dtype.kind == "f"), name
     assert len(frame) == len(skeleton.branch_nodes)
 
 

@@ -25,8 +25,9 @@ import os
 from . import _voxelcore
 from ._core import Core
 from ._making import core, prune, read, skeleton
-from ._measuring import Thickness, Verification, columns, measure, sheets, thickness, verify
+from ._measuring import Thickness, Verification, columns, measure, precomputed, sheets, thickness, verify
 from ._skeleton import Skeleton
+from ._volume import Volume
 from ._voxelcore import CertificateError, __version__
 
 __all__ = [
@@ -38,9 +39,11 @@ __all__ = [
     "read",
     "thickness",
     "sheets",
+    "precomputed",
     "Core",
     "Skeleton",
     "Thickness",
+    "Volume",
     "Verification",
     "CertificateError",
     "columns",
@@ -48,8 +51,8 @@ __all__ = [
 ]
 
 # Where users find them, and what pickles name.
-for _thing in (core, skeleton, prune, verify, measure, read, thickness, sheets, columns, Core, Skeleton, Thickness,
-               Verification):  # fmt: skip
+for _thing in (core, skeleton, prune, verify, measure, read, thickness, sheets, precomputed, columns, Core, Skeleton,
+               Thickness, Verification, Volume):  # fmt: skip
     _thing.__module__ = __name__
 del _thing
 

@@ -7,7 +7,7 @@ import typing
 
 import numpy
 
-from . import _images, _voxelcore
+from . import _images, _volume, _voxelcore
 
 
 def text(name, value, unit="mm"):
@@ -77,7 +77,7 @@ def of_array(function, rows, options, array, spacing, axes, label, threshold, or
     if isinstance(label, str) and label == "any":
         given["binary"] = "true"
     elif label is not None:
-        given["labels"] = labels(label)
+        given["labels"] = labels(label, array)
     if given.get("refine") == "grey" and numpy.ma.getmaskarray(array).any():
         raise ValueError("refine='grey': masked voxels have no grey values; give an array without a mask")
     return voxels(array, spacing, axes, origin, direction, limits), given
@@ -146,19 +146,38 @@ def without_mask(array, threshold):
     return numpy.where(mask, voxels.dtype.type(value), voxels)
 
 
-def labels(label):
-    """Values as the command line takes them."""
+def labels(label, source=None):
+    """Values as the command line takes them; names are those of a source that is a file."""
     if isinstance(label, str) and label == "all":
         return label
     try:
         values = several(label) or [label]
+        if any(isinstance(value, str) for value in values):
+            values = [by_name(value, source) if isinstance(value, str) else value for value in values]
         wholes = [int(value) for value in values if not isinstance(value, (bool, str))]
+    except LookupError as unknown:
+        raise ValueError(unknown.args[0]) from None
     except (TypeError, ValueError, OverflowError):
         values, wholes = [], []
     if not wholes or wholes != list(values):
         shown = " ".join(repr(label).split())  # arrays take several lines
-        raise ValueError(f"label {shown}: expected a whole number, a list of them, 'all', 'any' or None")
+        raise ValueError(f"label {shown}: expected a whole number, a list of them, 'all', 'any' or None; names are for "
+                         "files, given as paths")
     return ",".join(map(str, wholes))
+
+
+def by_name(name, source):
+    """The value of the label of a file that has this name."""
+    if not isinstance(source, _volume.Volume):
+        raise TypeError  # an array has no names
+    values = [value for value, one in source.names.items() if one.lower() == name.lower()]
+    if len(values) != 1:
+        near = difflib.get_close_matches(name, source.names.values(), 1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        known = ", ".join(map(repr, list(source.names.values())[:10]))
+        count = "no label" if not values else "several labels"
+        raise LookupError(f"label {name!r}: {count} of this name; the names are {known}{hint}")
+    return values[0]
 
 
 def voxel_size(spacing):
@@ -219,7 +238,7 @@ def values(function, rows, given):
     for keyword, value in given.items():
         row = rows.get(keyword)
         if row is None:
-            near = difflib.get_close_matches(keyword, rows, 1)
+            near = {"labels": ["label"]}.get(keyword) or difflib.get_close_matches(keyword, rows, 1)
             hint = f"; did you mean {near[0]!r}?" if near else ""
             raise TypeError(f"{function}() got an unexpected keyword argument {keyword!r}{hint}")
         if value is None or value is False:

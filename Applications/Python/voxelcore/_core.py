@@ -4,7 +4,7 @@ import os
 
 import numpy
 
-from . import _exchange, _voxelcore
+from . import _display, _exchange, _precomputed, _voxelcore
 from ._results import Result, functions
 
 
@@ -169,7 +169,7 @@ class Core(Result):
         Parameters
         ----------
         path : str or path-like
-            Ends in .vtp .vtk .ply .obj .stl or .ma.
+            Ends in .vtp .vtk .ply .obj .stl or .ma, or in .npz for the arrays.
         triangles : bool, default False
             Cuts polygons into triangles.
         keep_edges : bool, default False
@@ -177,6 +177,9 @@ class Core(Result):
         overwrite : bool, default False
             Replaces a file that is there, when the new one is whole.
         """
+        if os.fsdecode(path).endswith(".npz"):
+            _exchange.save_arrays(self, path, overwrite)
+            return
         _voxelcore.save_core(self._data, os.fsencode(path), bool(triangles), bool(keep_edges), bool(overwrite))
 
     def free_edges(self):
@@ -234,6 +237,32 @@ class Core(Result):
         ('surface', [(49, 3), (72, 3), (49,)])
         """
         return _exchange.napari_of_core(self)
+
+    def to_precomputed(self, folder, *, overwrite=False):
+        """Writes a folder for Neuroglancer: 'info', the polygons as a mesh of triangles (nm) under the label, and its
+        name. For several cores in one folder see precomputed().
+
+        Parameters
+        ----------
+        folder : str or path-like
+            Is made.
+        overwrite : bool, default False
+            Replaces what is there of it.
+        """
+        _precomputed.write([self], folder, overwrite, False)
+
+    def plot(self, axes=None):
+        """Draws the surface, coloured by radius, and returns the axes (package matplotlib).
+
+        Parameters
+        ----------
+        axes : matplotlib Axes3D, optional
+            Where to draw; None: a new figure.
+        """
+        return _display.plot_core(self, axes)
+
+    def _repr_html_(self):
+        return _display.html_of_core(self)
 
     def __repr__(self):
         pruned = self.report["labels"][0]["pruned"][0]

@@ -5,7 +5,7 @@ import numpy
 KINDS = ("tip", "junction", "loop", "isolated", "surface")
 
 
-def _library(name, package):
+def library(name, package):
     import importlib
 
     try:
@@ -26,12 +26,12 @@ def triangles(offsets, corners):
 
 
 def pyvista(result):
-    return _library("pyvista", "pyvista").wrap(result.to_polydata())
+    return library("pyvista", "pyvista").wrap(result.to_polydata())
 
 
 def trimesh(core):
     faces, of_face = triangles(core.face_offsets, core.face_vertices)
-    return _library("trimesh", "trimesh").Trimesh(
+    return library("trimesh", "trimesh").Trimesh(
         vertices=core.vertices,
         faces=faces,
         process=False,
@@ -73,7 +73,7 @@ def _told(result):
 
 
 def networkx(skeleton):
-    graph = _library("networkx", "networkx").MultiGraph(label=skeleton.label, unit=skeleton.unit)
+    graph = library("networkx", "networkx").MultiGraph(label=skeleton.label, unit=skeleton.unit)
     places, sections = skeleton.points, skeleton.section_radius
     for node, point in enumerate(skeleton.node_points):
         graph.add_node(
@@ -93,20 +93,66 @@ def networkx(skeleton):
 
 
 def pandas(skeleton):
-    return _library("pandas", "pandas").DataFrame(skeleton.measure())
+    return library("pandas", "pandas").DataFrame(table_of(skeleton))
 
 
-def osteoid(skeleton, scale):
-    """Vertices, edges between neighbours along branches, radii."""
+def table_of(skeleton):
+    """The columns of the program's table of branches, in its order."""
+    from ._measuring import columns
+
+    measured = skeleton.measure()
+    places = skeleton.points[skeleton.node_points[skeleton.branch_nodes]]
+    labels = skeleton.branch_labels
+    names = skeleton.names
+    values = dict(
+        measured,
+        label=labels,
+        name=[names.get(int(label), "") for label in labels],
+        part=numpy.full(len(labels), skeleton.component),
+        branch_id=numpy.arange(len(labels)),
+        node_id_src=skeleton.branch_nodes[:, 0].astype(int),
+        node_id_dst=skeleton.branch_nodes[:, 1].astype(int),
+    )
+    for end, which in (("src", 0), ("dst", 1)):
+        for axis, letter in enumerate("xyz"):
+            values[f"coord_{end}_{letter}"] = places[:, which, axis]
+    return {name: values[name] for name in columns(skeleton.unit)}
+
+
+def skeleton_edges(skeleton):
+    """(e, 2): neighbours along branches."""
     runs = numpy.diff(skeleton.branch_offsets.astype(numpy.int64))
     ends = numpy.ones(len(skeleton.branch_points), bool)
     ends[numpy.cumsum(runs) - 1] = False  # the last point of a branch begins no edge
     begins = numpy.flatnonzero(ends)
-    edges = numpy.stack([skeleton.branch_points[begins], skeleton.branch_points[begins + 1]], 1)
-    return _library("osteoid", "osteoid").Skeleton(
+    return numpy.stack([skeleton.branch_points[begins], skeleton.branch_points[begins + 1]], 1)
+
+
+def osteoid(skeleton, scale):
+    """Vertices, edges between neighbours along branches, radii."""
+    edges = skeleton_edges(skeleton)
+    return library("osteoid", "osteoid").Skeleton(
         vertices=(skeleton.points * scale).astype(numpy.float32),
         edges=edges.astype(numpy.uint32),
         radii=(skeleton.section_radius * scale).astype(numpy.float32),
         segid=skeleton.label,
         space="physical",
     )
+
+
+def save_arrays(result, path, overwrite):
+    """The arrays of a result, and its report as text, in an .npz file, which is whole or not there."""
+    import json
+    import os
+
+    path = os.fsdecode(path)
+    if not overwrite and os.path.exists(path):
+        raise OSError(f"{path}: exists already; give overwrite=True to replace it, or another name")
+    arrays = {}
+    for kind in type(result).__mro__:
+        for name, member in vars(kind).items():
+            if isinstance(member, property) and isinstance(value := getattr(result, name), numpy.ndarray):
+                arrays[name] = value
+    with open(path + ".part", "wb") as file:
+        numpy.savez_compressed(file, report=json.dumps(result.report), **arrays)
+    os.replace(path + ".part", path)

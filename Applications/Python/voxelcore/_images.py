@@ -5,6 +5,8 @@ import sys
 
 import numpy
 
+from ._volume import Volume
+
 # Millimetres in a unit of length.
 _UNITS = {
     "m": 1000.0, "meter": 1000.0, "metre": 1000.0, "cm": 10.0, "mm": 1.0, "millimeter": 1.0, "millimetre": 1.0,
@@ -29,11 +31,17 @@ class Placed:
 
 def of(image):
     """What is known of an image; None for arrays and whatever else numpy makes arrays of."""
-    for recognise in (_nibabel, _simpleitk, _itk, _vtk, _xarray):
+    for recognise in (_volume, _nibabel, _simpleitk, _itk, _vtk, _xarray):
         placed = recognise(image)
         if placed is not None:
             return placed
     return None
+
+
+def _volume(image):
+    if not isinstance(image, Volume):
+        return None
+    return Placed(image.array, "ijk", image.spacing, image.origin, image.direction)
 
 
 def _library(image, name):

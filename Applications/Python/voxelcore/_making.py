@@ -3,6 +3,7 @@
 import os
 
 from . import _arguments, _voxelcore
+from . import _volume
 from ._core import Core
 from ._skeleton import Skeleton
 
@@ -25,11 +26,11 @@ def core(
 
     Parameters
     ----------
-    array : array_like of whole numbers, shape (ni, nj, nk), or image
+    array : array_like of whole numbers, shape (ni, nj, nk), image, or path
         Any memory order; 0 is background, and so is what a numpy.ma array masks. It is read once, into one bit a
-        voxel, and not kept. It must not change meanwhile. Or an image of nibabel, SimpleITK, ITK or VTK, or an
-        xarray.DataArray with the dimensions x, y and z: spacing, origin, direction and axes are then the image's,
-        unless given.
+        voxel, and not kept. It must not change meanwhile. Or an image of nibabel, SimpleITK, ITK or VTK, an
+        xarray.DataArray with the dimensions x, y and z, or the path of a scan in any format of the program: spacing,
+        origin, direction and axes are then the image's, unless given.
     spacing : float, three floats, or str, mm, optional
         Between voxels along i, j and k; as text with a unit, such as '50um'. None: it is not known; all lengths are
         then in voxels, results have the unit 'voxel', and a length in mm is refused.
@@ -39,7 +40,8 @@ def core(
         spacing), '2.5%' (of the longest side of the label's box). 0 keeps the whole core. With tolerance, it is
         applied first. A list shares one computation.
     label : int, str, or list or array of int, optional
-        Its value. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list: each by itself.
+        Its value, or of a file its name. None: the array holds one; 'any': all but 0 are one shape; 'all' or a list:
+        each by itself.
     origin : three floats, mm, optional
         LPS place of the centre of voxel (0, 0, 0); of arrays 0, 0, 0 unless given.
     direction : array_like of float, shape (3, 3) or nine numbers row by row, optional
@@ -86,6 +88,7 @@ def core(
     ValueError: the array: its type is complex128; give whole numbers (bool, int8 to uint64, or float32 and float64 \
 that hold whole numbers)
     """
+    array = _volume.opened(array)
     taken, values = _arguments.of_array(
         "core", _arguments.OF_CORE, options, array, spacing, axes, label, threshold, origin, direction
     )
@@ -118,7 +121,7 @@ def skeleton(
 
     Parameters
     ----------
-    source : array_like, image or Core
+    source : array_like, image, path or Core
         An array, with the arguments of core() beside it (spacing, label, ...; its whole core is then taken unless
         lambda_ or tolerance say otherwise), or a Core. Of a pruned one the tips of slender branches are gone. Of an
         array with a tolerance the branches are those of the whole core, as far as the tolerance leaves them.
@@ -159,6 +162,8 @@ def skeleton(
     >>> list(vessels.branch_labels), [(one["labels"], one["area"]) for one in vessels.contacts]
     ([7, 9], [((7, 9), 25.0)])
     """
+    if not isinstance(source, Core):
+        source = _volume.opened(source)
     own = {keyword: value for keyword, value in options.items() if keyword in _arguments.OF_SKELETON}
     of_array = {keyword: value for keyword, value in options.items() if keyword not in own}
     unit = source.unit if isinstance(source, Core) else _arguments.unit(source, of_array.get("spacing"))
@@ -256,15 +261,19 @@ def prune(core, lambda_=None, *, tolerance=None, threads=0, progress=None):
 
 
 def read(path):
-    """The core in a .vtp file with one label that 'voxelcore core' or Core.save() wrote.
+    """What is in a file of VoxelCore, or a scan.
 
     Parameters
     ----------
     path : str or path-like
+        A .vtp file of 'voxelcore core' or 'voxelcore skeleton', also of save(); a table (.csv); arrays (.npz); or a
+        scan or map in any format that the program reads.
 
     Returns
     -------
-    Core
+    Core, Skeleton, or dict of these, or dict of arrays, or Volume
+        A dict by label (by label and component of split ones) of a .vtp file with several labels; by column of a
+        table; by name of arrays.
 
     Examples
     --------
@@ -276,7 +285,21 @@ def read(path):
     >>> numpy.array_equal(again.vertices, surface.vertices)
     True
     """
-    return Core(_voxelcore.read_core(os.fsencode(path)))
+    ending = os.path.splitext(os.fsdecode(path))[1].lower()
+    if ending == ".csv":
+        return _volume.table(path)
+    if ending == ".npz":
+        import numpy
+
+        with numpy.load(path) as arrays:
+            return {name: arrays[name] for name in arrays.files}
+    if ending != ".vtp":
+        return _volume.Volume(path)
+    kind, found = _voxelcore.read_results(os.fsencode(path))
+    results = [(Skeleton if kind == "skeleton" else Core)(data) for data in found]
+    if len(results) == 1:
+        return results[0]
+    return {(one.label, one.component) if one.component else one.label: one for one in results}
 
 
 _arguments.documented(core, _arguments.OF_CORE)

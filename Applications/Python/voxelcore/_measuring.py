@@ -4,7 +4,7 @@ import typing
 
 import numpy
 
-from . import _arguments, _voxelcore
+from . import _arguments, _precomputed, _volume, _voxelcore
 from ._core import Core
 from ._making import core, skeleton
 from ._skeleton import Skeleton
@@ -58,7 +58,7 @@ def verify(core, array, *, spacing=None, origin=None, direction=None, axes=None,
     >>> sorted(verify(surface, slab).failed)[:2]
     ['completeness', 'nothing nearer']
     """
-    taken = _arguments.voxels(array, spacing, axes, origin, direction)
+    taken = _arguments.voxels(_volume.opened(array), spacing, axes, origin, direction)
     found = _voxelcore.verify(
         core._data, taken.array, taken.spacing, taken.origin, taken.direction, int(threads), progress
     )
@@ -149,6 +149,7 @@ def thickness(array, *, spacing=None, label=None, axes=None, threshold=None, pro
     >>> abs(found.numbers[1]["median"] - 3) < 0.15
     True
     """
+    array = _volume.opened(array)
     taken, values = _arguments.of_array(
         "thickness", _arguments.OF_THICKNESS, options, array, spacing, axes, label, threshold
     )
@@ -203,6 +204,41 @@ def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
     rest = _arguments.share(progress, 0.9 if of_array else 0, 1)
     cut = _voxelcore.sheets(source._data, _arguments.text("sliver", sliver, source.unit), int(threads), rest)
     return dict(cut, core=source)
+
+
+def precomputed(results, folder, *, overwrite=False):
+    """Writes skeletons, or cores, into one folder for Neuroglancer, each under its label.
+
+    Parameters
+    ----------
+    results : Skeleton or Core, or list or dict of these
+        Of one kind, of different labels.
+    folder : str or path-like
+        Is made; as of to_precomputed().
+    overwrite : bool, default False
+        Replaces what is there of it.
+
+    Returns
+    -------
+    None
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> two = numpy.zeros((30, 9, 9), numpy.uint8)
+    >>> two[2:14, 2:7, 2:7], two[16:28, 2:7, 2:7] = 3, 4
+    >>> curves = {label: one.skeleton() for label, one in core(two, spacing=0.01, label="all", lambda_=0).items()}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     precomputed(curves, folder)
+    ...     sorted(os.listdir(folder))
+    ['3', '4', 'info', 'names']
+    """
+    listed = list(results.values()) if isinstance(results, dict) else results
+    listed = listed if isinstance(listed, (list, tuple)) else [listed]
+    kinds = {type(one) for one in listed}
+    if len(kinds) != 1 or not kinds <= {Core, Skeleton}:
+        raise ValueError("results: expected skeletons or cores, of one kind")
+    _precomputed.write(listed, folder, overwrite, kinds == {Skeleton})
 
 
 def columns(unit="mm"):

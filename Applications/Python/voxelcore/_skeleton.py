@@ -3,7 +3,7 @@
 import operator
 import os
 
-from . import _exchange, _voxelcore
+from . import _display, _exchange, _precomputed, _voxelcore
 from ._results import Result, functions
 
 
@@ -135,13 +135,18 @@ class Skeleton(Result):
         Parameters
         ----------
         path : str or path-like
-            Ends in .vtp, or in .csv for the tables alone.
+            Ends in .vtp, in .csv for the tables alone, or in .npz for the arrays.
         also : str or iterable of str, optional
-            Further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'ma'.
+            Further files beside it: any of 'csv', 'swc', 'mrk.json', 'graphml', 'obj', 'ma', 'precomputed'.
         overwrite : bool, default False
             Replaces files that are there, when the new ones are whole.
         """
         also = also if isinstance(also, str) else ",".join(also)
+        if os.fsdecode(path).endswith(".npz"):
+            if also:
+                raise ValueError("also: is for .vtp and .csv; save those by themselves")
+            _exchange.save_arrays(self, path, overwrite)
+            return
         _voxelcore.save_skeleton(self._data, os.fsencode(path), also, bool(overwrite))
 
     def to_polydata(self):
@@ -161,8 +166,14 @@ class Skeleton(Result):
         cross-sections (section_radius)."""
         return _exchange.networkx(self)
 
+    @property
+    def names(self):
+        """dict of str by label: the names of the label, or of a network's labels."""
+        return dict(self._data.names)
+
     def to_pandas(self):
-        """measure() as a pandas.DataFrame (package pandas), a row a branch."""
+        """The program's table of branches as a pandas.DataFrame (package pandas): the columns that columns() describes,
+        a row a branch."""
         return _exchange.pandas(self)
 
     def to_napari(self):
@@ -199,6 +210,32 @@ class Skeleton(Result):
         if os.path.splitext(os.fspath(path))[1] != ".swc":
             raise ValueError(f"{os.fspath(path)}: expected a name that ends in .swc")
         _voxelcore.save_swc(self._data, os.fsencode(path), bool(overwrite))
+
+    def to_precomputed(self, folder, *, overwrite=False):
+        """Writes a folder for Neuroglancer: 'info', the skeleton under its label, with a radius (nm) at each point,
+        and its name. For several skeletons in one folder see precomputed().
+
+        Parameters
+        ----------
+        folder : str or path-like
+            Is made; point Neuroglancer's 'precomputed://' source at it.
+        overwrite : bool, default False
+            Replaces what is there of it.
+        """
+        _precomputed.write([self], folder, overwrite, True)
+
+    def plot(self, axes=None):
+        """Draws the branches, coloured by radius, and returns the axes (package matplotlib).
+
+        Parameters
+        ----------
+        axes : matplotlib Axes3D, optional
+            Where to draw; None: a new figure.
+        """
+        return _display.plot_skeleton(self, axes)
+
+    def _repr_html_(self):
+        return _display.html_of_skeleton(self)
 
     def __repr__(self):
         counts = f"{len(self.branch_nodes)} branches, {len(self.points)} points"

@@ -2,6 +2,9 @@
 
 #include "voxelcore/Jobs/SkeletonFiles.h"
 
+#include <bit>
+#include <cstdint>
+
 namespace voxelcore::testing
 {
 namespace
@@ -72,6 +75,48 @@ TEST_F(SkeletonFilesOfJobs, StandBesideTheResult)
                                     "out.graphml" }));
   EXPECT_EQ(ReadSkeletonVtp(At("out.vtp")).parts.size(), 2U);
   EXPECT_EQ(m_Report.labels[1].skeleton->output, At("out.vtp"));
+}
+
+/** A number of four bytes, the lowest first. */
+template <typename T>
+T
+NumberAt(const std::string & bytes, std::size_t index)
+{
+  std::uint32_t bits = 0;
+  for (std::size_t i = 4; i-- > 0;)
+  {
+    bits = bits << 8U | static_cast<unsigned char>(bytes.at(4 * index + i));
+  }
+  return std::bit_cast<T>(bits);
+}
+
+TEST_F(SkeletonFilesOfJobs, LinesAreAnObjectALabelInObj)
+{
+  Write(At("out.vtp"), { {}, { "obj" } });
+  EXPECT_EQ(Bytes("out.obj"),
+            "# VoxelCore curve skeleton, mm\n# SPACE=LPS\n"
+            "o label_2\nv 0 0 0\nv 1 0 0\nv 2 0 0\ng branch_0\nl 1 2 3\n"
+            "o label_5\nv 0 0 0\nv 1 0 0\nv 3 0 0\ng branch_0\nl 4 5 6\n");
+}
+
+TEST_F(SkeletonFilesOfJobs, APrecomputedFolderHasAFileALabelInNanometres)
+{
+  for (const std::string output : { "out.vtp", "folder/" })
+  {
+    SCOPED_TRACE(output);
+    Write(At(output), { {}, { "precomputed" } });
+    const std::string folder = output == "out.vtp" ? "out_precomputed/" : "folder/scan_skeleton_precomputed/";
+    EXPECT_NE(Bytes(folder + "info").find("neuroglancer_skeletons"), std::string::npos);
+    EXPECT_NE(Bytes(folder + "names/info").find("\"n5\""), std::string::npos);
+    const std::string bytes = Bytes(folder + "5");
+    ASSERT_EQ(bytes.size(), 4U * (2 + 3 * 3 + 2 * 2 + 3));
+    EXPECT_EQ(NumberAt<std::uint32_t>(bytes, 0), 3U);
+    EXPECT_EQ(NumberAt<std::uint32_t>(bytes, 1), 2U);
+    EXPECT_EQ(NumberAt<float>(bytes, 2 + 6), 3e6F); // x of the third point
+    EXPECT_EQ(NumberAt<std::uint32_t>(bytes, 11), 0U);
+    EXPECT_EQ(NumberAt<std::uint32_t>(bytes, 14), 2U);
+    EXPECT_EQ(NumberAt<float>(bytes, 15), 1e6F); // the radius of the first
+  }
 }
 
 TEST_F(SkeletonFilesOfJobs, ATableTakesThePlaceOfTheBranches)

@@ -16,6 +16,7 @@ TEST(SkeletonTargets, EndingsAreTakenInTheirOrderEachOnce)
   EXPECT_EQ(ParseAlso("csv"), (Endings{ "csv" }));
   EXPECT_EQ(ParseAlso("ma,graphml,mrk.json,swc,csv"), (Endings{ "ma", "graphml", "mrk.json", "swc", "csv" }));
   EXPECT_EQ(ParseAlso("swc,csv,swc"), (Endings{ "swc", "csv" }));
+  EXPECT_EQ(ParseAlso("obj,precomputed"), (Endings{ "obj", "precomputed" }));
 }
 
 TEST(SkeletonTargets, UnknownOnesAreRefusedWithTheNearest)
@@ -32,7 +33,8 @@ TEST(SkeletonTargets, UnknownOnesAreRefusedWithTheNearest)
   catch (const UsageError & error)
   {
     const std::string what = error.what();
-    EXPECT_NE(what.find("'graphlm' is not one of csv, swc, mrk.json, graphml, ma"), std::string::npos) << what;
+    EXPECT_NE(what.find("'graphlm' is not one of csv, swc, mrk.json, graphml, obj, precomputed, ma"), std::string::npos)
+      << what;
     EXPECT_NE(what.find("did you mean"), std::string::npos) << what;
   }
 }

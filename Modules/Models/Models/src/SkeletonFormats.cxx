@@ -373,4 +373,44 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
   file.Finish();
 }
 
+void
+WriteSkeletonObj(const std::filesystem::path & path, const SkeletonModel & model)
+{
+  TextFile file(path, 9);
+  file << "# VoxelCore curve skeleton, " << std::string_view(model.unit == SpatialUnit::Voxels ? "voxels" : "mm")
+       << "\n# SPACE=LPS\n";
+  std::uint64_t before = 1; // OBJ counts from 1, over all objects
+  for (const SkeletonPart & part : model.parts)
+  {
+    file << "o label_" << part.label;
+    if (part.component > 0)
+    {
+      file << "_" << part.component;
+    }
+    file << "\n";
+    for (const auto & p : part.graph.positions)
+    {
+      file << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
+    }
+    for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
+    {
+      file << "g branch_" << branch << "\nl";
+      for (const ElementIndex point : part.graph.Branch(branch))
+      {
+        file << " " << before + point;
+      }
+      file << "\n";
+    }
+    for (std::size_t node = 0; node < part.graph.nodePoints.size(); ++node)
+    {
+      if (part.graph.nodeKinds[node] == NodeKind::Isolated)
+      {
+        file << "p " << before + part.graph.nodePoints[node] << "\n";
+      }
+    }
+    before += part.graph.positions.size();
+  }
+  file.Finish();
+}
+
 } // namespace voxelcore

@@ -107,6 +107,15 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
   if (m_ToFolder)
   {
     m_Transaction.MakeDirectory(m_Output);
+  }
+  if (Wants("precomputed"))
+  {
+    const fs::path folder = PrecomputedFolder();
+    m_Transaction.MakeDirectory(folder / "names");
+    m_Transaction.CheckTarget(folder / "info");
+  }
+  if (m_ToFolder)
+  {
     return;
   }
   if (extension == ".vtp")
@@ -115,7 +124,7 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
   }
   for (const std::string & ending : m_Targets.also)
   {
-    const std::vector<fs::path> targets = Beside(m_Output, ending);
+    const std::vector<fs::path> targets = ending == "precomputed" ? std::vector<fs::path>() : Beside(m_Output, ending);
     for (std::size_t i = ending == "csv" && m_Targets.table ? 1 : 0; i < targets.size(); ++i)
     {
       m_Transaction.CheckTarget(targets[i]);
@@ -173,6 +182,24 @@ SkeletonFiles::RequireUnit(SpatialUnit unit) const
     throw InputError(m_Input.string() + ": gives no voxel size, and --flow " + m_Targets.flow->string() + " is in " +
                      (IsFlowJson() ? "centimetres" : "metres") + "; give --spacing, or a .csv file");
   }
+  if (unit != SpatialUnit::Millimetres && Wants("precomputed"))
+  {
+    throw InputError(m_Input.string() + ": gives no voxel size, and --also precomputed is in nm; give --spacing");
+  }
+}
+
+fs::path
+SkeletonFiles::PrecomputedFolder() const
+{
+  const fs::path beside = m_ToFolder ? SkeletonTablesPath(m_Output, m_Input) : m_Output;
+  return beside.parent_path() / (beside.stem().string() + "_precomputed");
+}
+
+void
+SkeletonFiles::WritePrecomputed(const SkeletonModel & model)
+{
+  WritePrecomputedSkeletons([&](const std::string & name) { return m_Transaction.Stage(PrecomputedFolder() / name); },
+                            model);
 }
 
 void
@@ -267,9 +294,10 @@ SkeletonFiles::Add(CoreReport &               report,
   if (skeleton.numbers.closedFaces > 0)
   {
     notes.push_back(text + ": " + std::to_string(skeleton.numbers.closedFaces) +
-                    " faces of closed surfaces stay: around a cavity nothing can become a curve");
+                    " faces of closed surfaces stay: around a cavity nothing can become a curve; give --fill-cavities "
+                    "for curves alone, as of a cell without its nucleus");
   }
-  if (m_ToFolder && (Wants("csv") || m_Targets.table))
+  if (m_ToFolder && (Wants("csv") || Wants("precomputed") || m_Targets.table))
   {
     m_AllLabels.parts.push_back(part);
   }
@@ -311,7 +339,7 @@ SkeletonFiles::AddFinished(CoreReport & report, std::size_t label)
   part.table = MeasureBranches(part.graph, { report.skeleton->branches.root });
   skeleton.numbers = part.table.numbers;
   skeleton.output = output.string();
-  if (Wants("csv") || m_Targets.table)
+  if (Wants("csv") || Wants("precomputed") || m_Targets.table)
   {
     m_AllLabels.parts.push_back(std::move(part));
   }
@@ -356,6 +384,14 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
   }
   for (const std::string & ending : m_Targets.also)
   {
+    if (ending == "precomputed")
+    {
+      if (!m_ToFolder)
+      {
+        WritePrecomputed(m_Model);
+      }
+      continue;
+    }
     const std::vector<fs::path> targets = Beside(output, ending);
     if (ending == "csv" && !m_ToFolder)
     {
@@ -368,6 +404,10 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
     else if (ending == "mrk.json")
     {
       WriteMarkups(m_Transaction.Stage(targets[0]), m_Model);
+    }
+    else if (ending == "obj")
+    {
+      WriteSkeletonObj(m_Transaction.Stage(targets[0]), m_Model);
     }
     else if (ending == "graphml")
     {
@@ -401,6 +441,10 @@ SkeletonFiles::Finish(const CoreReport & report, std::vector<std::string> & note
     if (Wants("csv"))
     {
       WriteTables(SkeletonTablesPath(m_Output, m_Input), m_AllLabels);
+    }
+    if (Wants("precomputed"))
+    {
+      WritePrecomputed(m_AllLabels);
     }
     if (m_Targets.table)
     {

@@ -123,6 +123,8 @@ branches. Radii in tables are those of the scanned body. Guide: skeletons.md
   swc       OUT.swc, in micrometres; cycles are cut
   mrk.json  OUT.mrk.json, curves for 3D Slicer
   graphml   OUT.graphml
+  obj       OUT.obj, a line a branch
+  precomputed  the folder OUT_precomputed with a file a label, for Neuroglancer
   ma        OUT.ma and OUT.r: the medial surface, for other programs
 A folder gets one set per label, named <scan>_label-<value>_skeleton; tables hold all labels.
 

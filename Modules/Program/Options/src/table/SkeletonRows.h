@@ -34,7 +34,7 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     "",
     false,
     kStages | kMeasure,
-    "Write the skeleton in more forms: csv, swc, mrk.json, graphml, ma" },
+    "Write the skeleton in more forms: csv, swc, mrk.json, graphml, obj, precomputed, ma" },
   { "soma",
     "--soma",
     Text,

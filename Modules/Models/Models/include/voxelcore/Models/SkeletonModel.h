@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,18 @@ WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model);
 /** GraphML: nodes with place, radius and kind, edges with the numbers of their branches. \throws OutputError */
 void
 WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** Wavefront OBJ: an object a label, in it a group with a line a branch; isolated points as points. LPS, in the unit of
+ *  the model, as a comment says; radii have no place in it. \throws OutputError */
+void
+WriteSkeletonObj(const std::filesystem::path & path, const SkeletonModel & model);
+
+/** Neuroglancer's precomputed skeletons, whose unit must be mm: a file for each label, named by its value, with points
+ *  in nanometres, edges, and the radius of a round cross-section at each point; `names/info`, the labels' names; and at
+ *  last `info`. `place` gives the path to write each at. \throws OutputError */
+void
+WritePrecomputedSkeletons(const std::function<std::filesystem::path(const std::string & name)> & place,
+                          const SkeletonModel &                                                  model);
 
 /** Comma-separated values, a row per branch; columns as SkeletonColumns() says. \throws OutputError */
 void

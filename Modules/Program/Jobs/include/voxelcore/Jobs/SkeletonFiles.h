@@ -16,7 +16,8 @@ namespace voxelcore
 
 /** Takes the labels' skeletons, then writes all files. Names beside "OUT.vtp": OUT_branches.csv, OUT_summary.csv and
  *  OUT_columns.json for csv (with --table that file takes the place of OUT_branches.csv), of a network
- *  OUT_contacts.csv; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.ma with OUT.r for the others. In a folder there is an OUT
+ *  OUT_contacts.csv; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.obj, OUT.ma with OUT.r for the others, and the folder
+ *  OUT_precomputed with a file a label. In a folder there is an OUT
  *  for each label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so
  *  on. */
 class SkeletonFiles
@@ -91,6 +92,10 @@ private:
              std::vector<std::string> &       notes);
   void
   WriteTables(const std::filesystem::path & output, const SkeletonModel & model);
+  std::filesystem::path
+  PrecomputedFolder() const;
+  void
+  WritePrecomputed(const SkeletonModel & model);
 
   std::filesystem::path    m_Output;
   std::filesystem::path    m_Input;

@@ -17,8 +17,8 @@ namespace voxelcore
 struct SkeletonTargets
 {
   std::optional<std::filesystem::path> table; ///< .csv, a row per branch
-  std::vector<std::string>             also;  ///< further files beside the result: csv, swc, mrk.json, graphml, ma
-  bool                                 network = false; ///< of a network: tables have that of its contacts, too
+  std::vector<std::string> also; ///< further files beside the result: csv, swc, mrk.json, graphml, obj, precomputed, ma
+  bool                     network = false; ///< of a network: tables have that of its contacts, too
 
   /** Sections of the body along branches, so far apart; 0: at each point. Of scans, into one file. */
   std::optional<Lambda> sections{};
