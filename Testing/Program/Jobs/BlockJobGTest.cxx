@@ -80,7 +80,7 @@ TEST_F(BlockJob, PartsThatDoNotGoTogetherAreRefusedWithTheirFolder)
   }
   catch (const InputError & error)
   {
-    EXPECT_EQ(std::string(error.what()), At("parts") + ": block 1 was given twice");
+    EXPECT_EQ(std::string(error.what()), At("parts") + ": block 1 was given twice; give it once");
   }
 }
 

@@ -219,7 +219,7 @@ TEST(ItkShapeFilter, RefusesInOneLineWhatTheReaderRefuses)
   EXPECT_EQ(refuse(bar, [](auto & filter) { filter.SetLabel(3); }), "the input image: there is no label '3'; it has 1");
   EXPECT_NE(refuse(bar, [](auto & filter) { filter.SetLabels("1,,2"); }).find("--labels '1,,2'"), std::string::npos);
   EXPECT_NE(refuse(bar, [](auto & filter) { filter.SetLabel(0); }).find("0 is background"), std::string::npos);
-  EXPECT_NE(refuse(bar, [](auto & filter) { filter.SetThreshold(2, 1); }).find("the lower bound comes first"),
+  EXPECT_NE(refuse(bar, [](auto & filter) { filter.SetThreshold(2, 1); }).find("put the lower bound first"),
             std::string::npos);
   EXPECT_NE(refuse(bar,
                    [](auto & filter) {

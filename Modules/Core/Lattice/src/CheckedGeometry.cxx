@@ -78,7 +78,7 @@ CheckedGeometry(const std::filesystem::path & scan,
     {
       if (options.spacing)
       {
-        throw UsageError(Text("--spacing ", Number(geometry.spacing[a]), ": spacings are lengths in mm above 0"));
+        throw UsageError(Text("--spacing ", Number(geometry.spacing[a]), ": give lengths in mm above 0"));
       }
       RefuseInput(scan,
                   Text("the voxel spacing along axis ", axisName[a], " is ", Number(geometry.spacing[a])),

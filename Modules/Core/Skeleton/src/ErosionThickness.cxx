@@ -95,7 +95,8 @@ ComputeBurnTimes(const MedialComplex & complex, double sampling, const ProgressC
   if (!std::all_of(complex.radius.begin(), complex.radius.end(), isLength) ||
       !std::all_of(complex.positions.begin(), complex.positions.end(), isPlace))
   {
-    throw InputError("a radius of the medial surface is below 0, or a radius or place is no finite number");
+    throw InputError(
+      "a radius of the medial surface is below 0, or a radius or place is no finite number; make the surface again");
   }
   return SurfaceFire(complex, sampling).Run(progress);
 }

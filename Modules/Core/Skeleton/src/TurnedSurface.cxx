@@ -74,7 +74,8 @@ FindPlaces(const MedialComplex & surface, const ImageGeometry & geometry)
       {
         if (!(std::abs(lattice[axis]) < 0x1p31))
         {
-          throw InputError("the medial surface lies beyond 2^31 voxels from the scan's first");
+          throw InputError(
+            "the medial surface lies beyond 2^31 voxels from the scan's first; give the scan a nearer origin");
         }
         // Places are multiples of kPlaceStep: they are found again whatever rounding did to them, halves included,
         // which go to even steps from either side.

@@ -60,7 +60,7 @@ HasHtml()
 void
 WriteHtml(const std::filesystem::path &, const DisplayContent &, const HtmlOptions &, const ProgressCallback &)
 {
-  throw UsageError("--html is off in this build: three.js was not there when it was made (Debian: libjs-three)");
+  throw UsageError("--html is off in this build: install three.js (Debian: libjs-three) and configure it anew");
 }
 
 #endif

@@ -178,7 +178,7 @@ private:
     }
     if (!m_HasSurface && !m_HasMedial && !m_HasCurves)
     {
-      throw UsageError("there is nothing to be drawn in these files");
+      throw UsageError("there is nothing to be drawn in these files; give others, or more labels");
     }
   }
 

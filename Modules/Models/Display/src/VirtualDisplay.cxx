@@ -97,7 +97,7 @@ VirtualDisplay::VirtualDisplay()
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
   {
-    throw OutputError("cannot start Xvfb: out of file descriptors");
+    throw OutputError("cannot start Xvfb: out of file descriptors; raise the limit with ulimit -n");
   }
   const pid_t self = getpid();
   m_Server = fork();

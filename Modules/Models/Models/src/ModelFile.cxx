@@ -103,11 +103,11 @@ ReadFrom(const std::filesystem::path &              path,
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
   {
-    throw InputError("cannot read '" + path.string() + "': there is no such file");
+    throw InputError("cannot read '" + path.string() + "': there is no such file; check its name");
   }
   if (!std::filesystem::is_regular_file(path, ignored))
   {
-    throw InputError("cannot read '" + path.string() + "': it is not a file");
+    throw InputError("cannot read '" + path.string() + "': it is not a file; give a file");
   }
   try
   {

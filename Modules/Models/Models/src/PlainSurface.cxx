@@ -282,7 +282,7 @@ ReadPlainSurface(const std::filesystem::path & path)
   }
   catch (const UnfitFile & unfit)
   {
-    throw InputError("cannot read mesh '" + path.string() + "': " + unfit.reason);
+    throw InputError("cannot read mesh '" + path.string() + "': " + unfit.reason + "; write it anew");
   }
 }
 

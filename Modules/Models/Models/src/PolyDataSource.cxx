@@ -139,7 +139,8 @@ ModelFromPolyData(vtkPolyData & data)
   }
   catch (const UnfitFile & unfit)
   {
-    throw InputError("the polydata is no medial surface of VoxelCore: " + unfit.reason);
+    throw InputError("the polydata is no medial surface of VoxelCore: " + unfit.reason +
+                     "; give what vtkVoxelCoreFilter makes");
   }
 }
 

@@ -64,7 +64,7 @@ FindParts(const fs::path & folder, const std::string & start)
   std::map<std::size_t, std::map<std::size_t, fs::path>> byCount;
   if (!fs::is_directory(folder))
   {
-    throw InputError(folder.string() + ": no such folder; --join takes the folder that 'core --block' wrote into");
+    throw InputError(folder.string() + ": no such folder; give --join the folder that 'core --block' wrote into");
   }
   for (const auto & entry : fs::directory_iterator(folder))
   {

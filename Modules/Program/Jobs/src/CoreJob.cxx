@@ -99,7 +99,7 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
 {
   if (options.lambdas.empty())
   {
-    throw UsageError("no --lambda given");
+    throw UsageError("no --lambda given; give one, such as --lambda 1.5vox");
   }
   if (!options.tolerances.empty() && options.lambdas.size() > 1)
   {

@@ -48,7 +48,7 @@ RequirePages()
 {
   if (!HasHtml())
   {
-    throw UsageError("--html is off in this build: three.js was not there when it was made (Debian: libjs-three)");
+    throw UsageError("--html is off in this build: install three.js (Debian: libjs-three) and configure it anew");
   }
 }
 

@@ -86,7 +86,7 @@ ParseLengths(std::string_view text, Length (*parse)(std::string_view), const std
     {
       if (other.text == length.text)
       {
-        throw UsageError(option + " " + std::string(text) + ": " + length.text + " is given twice");
+        throw UsageError(option + " " + std::string(text) + ": " + length.text + " is given twice; give it once");
       }
     }
     lengths.push_back(length);

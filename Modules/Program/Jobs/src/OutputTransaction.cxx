@@ -213,7 +213,9 @@ OutputTransaction::StageWithCompanions(const fs::path & target)
   m_Items.push_back({ directory, clean, true });
   if (!fs::create_directory(directory, error))
   {
-    ThrowOutputError(clean, "cannot write: " + (error ? error.message() : std::string("the temporary name is taken")));
+    ThrowOutputError(clean,
+                     "cannot write: " +
+                       (error ? error.message() : std::string("the temporary name is taken; remove that file")));
   }
   return directory / clean.filename();
 }

@@ -147,7 +147,7 @@ GreySource(const RefineOptions &         options,
   const auto range = other ? *options.greyRange : *reading.threshold;
   if (std::isinf(range.first) && std::isinf(range.second))
   {
-    throw UsageError("--refine grey: the range of grey values has no end, so there is no surface at one");
+    throw UsageError("--refine grey: the range of grey values has no end; give one, such as 300:inf");
   }
   const VoxelBox whole = PartRead(input);
   // Positive within the shape.
@@ -228,7 +228,7 @@ MakeSurfaceSource(const RefineOptions &         options,
   }
   if (!input.mesh)
   {
-    throw UsageError("--refine mesh: " + scan.string() + " is no mesh; a scan has labels or grey values");
+    throw UsageError("--refine mesh: " + scan.string() + " is no mesh; give --refine labels or --refine grey");
   }
   const auto mesh = std::make_shared<TriangleMesh>(*input.mesh);
   for (Vector3 & point : mesh->points)

@@ -55,7 +55,7 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
     const bool crlf = c == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
     if (c == '\0')
     {
-      ThrowInputError(where, line, "holds a NUL byte; this is no text file");
+      ThrowInputError(where, line, "holds a NUL byte; save it as CSV in UTF-8");
     }
     if (quoted)
     {
@@ -103,7 +103,7 @@ ParseCsv(std::string_view text, const std::string & where, char separator)
   }
   if (quoted)
   {
-    ThrowInputError(where, row.line, "a quote is opened and never closed");
+    ThrowInputError(where, row.line, "a quote is opened and never closed; close it");
   }
   endRow();
   return rows;

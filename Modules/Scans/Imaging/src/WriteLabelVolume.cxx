@@ -61,7 +61,7 @@ SmallestType(const std::vector<LabelShape> & labels, const std::filesystem::path
   {
     if (label.value < 1)
     {
-      throw UsageError(Text(path.string(), ": label ", label.value, " cannot be written; labels are 1 and above"));
+      throw UsageError(Text(path.string(), ": label ", label.value, " cannot be written; give values from 1 on"));
     }
     largest = std::max(largest, label.value);
   }
@@ -84,7 +84,10 @@ RequireWithin(const std::filesystem::path & path, const std::array<std::int64_t,
   {
     if (box.size[a] > 0 && (box.lower[a] < 0 || std::int64_t{ box.lower[a] } + box.size[a] > size[a]))
     {
-      throw UsageError(Text(path.string(), ": label ", label.value, " reaches beyond the volume it is written into"));
+      throw UsageError(Text(path.string(),
+                            ": label ",
+                            label.value,
+                            " reaches beyond the volume it is written into; give a larger one"));
     }
   }
 }
@@ -269,7 +272,14 @@ RequireSize(const std::filesystem::path & staged, Kind kind, const std::array<st
   const auto                  longest = std::max({ size[0], size[1], size[2] });
   if (std::min({ size[0], size[1], size[2] }) < 1 || longest > (std::int64_t{ 1 } << 30))
   {
-    throw UsageError(Text(path.string(), ": a volume of ", size[0], " x ", size[1], " x ", size[2], " voxels"));
+    throw UsageError(Text(path.string(),
+                          ": a volume of ",
+                          size[0],
+                          " x ",
+                          size[1],
+                          " x ",
+                          size[2],
+                          " voxels; give each side one or more"));
   }
   if (kind == Kind::Nifti && longest > INT16_MAX)
   {
@@ -362,7 +372,7 @@ WriteGreyVolume(const std::filesystem::path &  path,
   const auto plane = static_cast<std::size_t>(geometry.size[0]) * static_cast<std::size_t>(geometry.size[1]);
   if (values.size() != plane * static_cast<std::size_t>(geometry.size[2]))
   {
-    throw UsageError(Text(path.string(), ": ", values.size(), " values do not fill the volume"));
+    throw UsageError(Text(path.string(), ": ", values.size(), " values do not fill the volume; give one a voxel"));
   }
   const SliceSource slice = [&](std::int64_t k) {
     return std::as_bytes(values.subspan(static_cast<std::size_t>(k) * plane, plane));

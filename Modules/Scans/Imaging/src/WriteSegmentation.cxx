@@ -115,7 +115,10 @@ WriteSegmentation(const std::filesystem::path &   path,
     keep = keep && label.value >= 1 && label.value <= UINT16_MAX && ++uses[label.value] == 1;
     if (!fits(label))
     {
-      throw UsageError(Text(path.string(), ": label ", label.value, " reaches beyond the volume it is written into"));
+      throw UsageError(Text(path.string(),
+                            ": label ",
+                            label.value,
+                            " reaches beyond the volume it is written into; give a larger one"));
     }
   }
   if (labels.size() > UINT16_MAX)

@@ -170,7 +170,7 @@ DescribePixels(const std::filesystem::path & path, const gdcm::DataSet & set)
   if (FieldShort(set, gdcm::Tag(0x0028, 0x0002)).value_or(1) != 1 ||
       (!colours.empty() && !colours.starts_with("MONOCHROME") && colours != "PALETTE COLOR"))
   {
-    RefuseInput(path, Text("colour image (", Printable(colours, 30), ")"), "one whole number a voxel is needed");
+    RefuseInput(path, Text("colour image (", Printable(colours, 30), ")"), "save it with one whole number a voxel");
   }
   const bool bits = pixels.bitsAllocated == 1;
   if ((!bits && pixels.bitsAllocated != 8 && pixels.bitsAllocated != 16 && pixels.bitsAllocated != 32) ||
@@ -178,7 +178,7 @@ DescribePixels(const std::filesystem::path & path, const gdcm::DataSet & set)
   {
     RefuseInput(path,
                 Text("pixels of ", pixels.bitsStored, " bits in ", pixels.bitsAllocated),
-                "whole numbers of 1, 8, 16 or 32 bits are needed");
+                "save it with whole numbers of 1, 8, 16 or 32 bits");
   }
   if (FieldShort(set, gdcm::Tag(0x0028, 0x0102)).value_or(static_cast<std::uint16_t>(pixels.bitsStored - 1)) !=
       pixels.bitsStored - 1)
@@ -235,7 +235,7 @@ ReadPixels(const std::filesystem::path & path, const DicomPixels & pixels)
   const bool isKnown = byName.Read();
   if (!isKnown && !ReadAsKnownClass(file, copy, byClass))
   {
-    RefuseInput(path, "GDCM cannot read its pixels", "the file is damaged or of a kind GDCM does not know");
+    RefuseInput(path, "GDCM cannot read its pixels", "convert it with 'gdcmconv --raw' or 'dcmdjpeg'");
   }
   const gdcm::Image & image = (isKnown ? byName : byClass).GetImage();
   if (image.GetBufferLength() != bytes)
@@ -245,7 +245,7 @@ ReadPixels(const std::filesystem::path & path, const DicomPixels & pixels)
   std::vector<char> buffer(bytes);
   if (!image.GetBuffer(buffer.data()))
   {
-    RefuseInput(path, "GDCM cannot unpack its pixels", "the file is damaged or of a kind GDCM does not know");
+    RefuseInput(path, "GDCM cannot unpack its pixels", "convert it with 'gdcmconv --raw' or 'dcmdjpeg'");
   }
   return buffer;
 }

@@ -172,7 +172,7 @@ StackPlanes(const std::filesystem::path & path, const std::vector<DicomPlane> & 
   const Vector3      normal = Cross(*first.alongRow, *first.alongColumn);
   if (!(Length(normal) > 0.5))
   {
-    RefuseInput(path, "its rows and columns run in one direction", "the file is damaged");
+    RefuseInput(path, "its rows and columns run in one direction", "the file is damaged: write it anew");
   }
   std::vector<double> heights;
   for (const DicomPlane & plane : planes)
@@ -180,7 +180,7 @@ StackPlanes(const std::filesystem::path & path, const std::vector<DicomPlane> & 
     heights.push_back(Dot(*plane.position, normal) / Length(normal));
     if (!std::isfinite(heights.back()))
     {
-      RefuseInput(path, "a slice has no finite position", "the file is damaged");
+      RefuseInput(path, "a slice has no finite position", "the file is damaged: write it anew");
     }
   }
   const auto          places = SortedPlaces(planes, heights);
@@ -211,7 +211,7 @@ StackPlanes(const std::filesystem::path & path, const std::vector<DicomPlane> & 
     // Empty frames may be left out, but not without end.
     if (last >= 4096 && last >= 64 * static_cast<double>(places.size()))
     {
-      RefuseInput(path, "its slices are too far apart for their distance", "the file is damaged");
+      RefuseInput(path, "its slices are too far apart for their distance", "the file is damaged: write it anew");
     }
     const Vector3 way = Minus(*planes[places.back().front()].position, *planes[base].position);
     const Vector3 step{ way[0] / last, way[1] / last, way[2] / last };

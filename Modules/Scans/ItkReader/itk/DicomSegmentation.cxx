@@ -73,13 +73,15 @@ ReadSegments(const std::filesystem::path & path, const gdcm::DataSet & set, bool
     }
     if (segment.value == 0 || !numbers.insert(segment.value).second)
     {
-      RefuseInput(path, Text("two segments or none have the number ", segment.value), "the file is damaged");
+      RefuseInput(path,
+                  Text("two segments or none have the number ", segment.value),
+                  "the file is damaged: write it anew");
     }
     segments.push_back(std::move(segment));
   }
   if (segments.empty())
   {
-    RefuseInput(path, "a segmentation without segments", "the file is damaged");
+    RefuseInput(path, "a segmentation without segments", "the file is damaged: write it anew");
   }
   return segments;
 }
@@ -94,14 +96,18 @@ public:
     const std::string kind = FieldText(set, gdcm::Tag(0x0062, 0x0001));
     if (kind != "BINARY" && kind != "FRACTIONAL" && kind != "LABELMAP")
     {
-      RefuseInput(path, Text("a segmentation of type '", Printable(kind, 20), "'"), "it is none of the standard's");
+      RefuseInput(path,
+                  Text("a segmentation of type '", Printable(kind, 20), "'"),
+                  "save it as BINARY, FRACTIONAL or LABELMAP");
     }
     m_Kind = kind == "BINARY" ? Kind::Binary : kind == "FRACTIONAL" ? Kind::Fractional : Kind::LabelMap;
     if (m_Kind == Kind::Binary ? m_Pixels.bitsAllocated != 1
                                : m_Pixels.bitsAllocated < 8 || m_Pixels.isSigned ||
                                    (m_Kind == Kind::Fractional && m_Pixels.bitsAllocated != 8))
     {
-      RefuseInput(path, Text(kind, " segmentation with pixels of ", m_Pixels.bitsAllocated, " bits"), "it is damaged");
+      RefuseInput(path,
+                  Text(kind, " segmentation with pixels of ", m_Pixels.bitsAllocated, " bits"),
+                  "it is damaged: write it anew");
     }
     m_Segments = ReadSegments(path, set, m_Kind == Kind::LabelMap);
     scan.format = "DICOM-SEG";
@@ -184,7 +190,7 @@ private:
         {
           RefuseInput(m_Path,
                       Text("frame ", frame + 1, " is of segment ", frames[frame].segment, ", which is not there"),
-                      "the file is damaged");
+                      "the file is damaged: write it anew");
         }
         std::ptrdiff_t & at = row[m_Kind == Kind::LabelMap ? 0 : place->second];
         if (at >= 0)
@@ -210,7 +216,9 @@ private:
     const auto most = FieldShort(set, gdcm::Tag(0x0062, 0x000e)).value_or(0);
     if (most < 1 || most > 255)
     {
-      RefuseInput(m_Path, Text("fractions of ", most, " (Maximum Fractional Value)"), "the file is damaged");
+      RefuseInput(m_Path,
+                  Text("fractions of ", most, " (Maximum Fractional Value)"),
+                  "the file is damaged: write it anew");
     }
     scan.type = PixelType::UInt8;
     scan.storedType = "uint8";

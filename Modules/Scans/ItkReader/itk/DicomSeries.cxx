@@ -129,7 +129,7 @@ private:
     m_Stack = StackPlanes(path, planes, false, scan);
     if (m_Stack.slices.size() == 1 && m_Files.size() > 1)
     {
-      RefuseInput(path, Text(m_Files.size(), " slices at one place"), "a volume is needed");
+      RefuseInput(path, Text(m_Files.size(), " slices at one place"), "give the folder of one volume");
     }
     for (const auto & place : m_Stack.slices)
     {

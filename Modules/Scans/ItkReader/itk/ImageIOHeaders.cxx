@@ -105,7 +105,7 @@ CheckMrc(const std::filesystem::path & path, ItkScan & scan)
     {
       RefuseInput(path,
                   Text("its cell has an angle of ", Number(real(angle)), " degrees"),
-                  "a right-angled one is needed");
+                  "resample it to a right-angled one");
     }
   }
   if (word(23) >= 401)
@@ -302,7 +302,7 @@ CheckVtk(const std::filesystem::path & path, ItkScan & scan)
   const std::uint64_t voxels = bytes / PixelBytes(scan.type) / scan.components;
   if (header.dataset != "STRUCTURED_POINTS")
   {
-    RefuseInput(path, Text("a VTK file of ", Printable(header.dataset, 30)), "STRUCTURED_POINTS are needed");
+    RefuseInput(path, Text("a VTK file of ", Printable(header.dataset, 30)), "save it as STRUCTURED_POINTS");
   }
   if (header.attribute != "POINT_DATA" || header.count != static_cast<std::int64_t>(voxels))
   {
@@ -319,7 +319,7 @@ CheckVtk(const std::filesystem::path & path, ItkScan & scan)
   }
   if (scan.components > 1)
   {
-    RefuseInput(path, Text(scan.components, " values a voxel"), "one whole number a voxel is needed");
+    RefuseInput(path, Text(scan.components, " values a voxel"), "save it with one whole number a voxel");
   }
   const std::uint64_t end = header.isText ? CheckVtkText(path, header, voxels) : header.end + bytes;
   CheckLength(path, std::filesystem::file_size(path), end);

@@ -103,7 +103,7 @@ public:
     {
       RefuseInput(path,
                   Text("ITK's ", m_IO->GetNameOfClass(), " does not know it"),
-                  "the file is damaged or another's");
+                  "the file is damaged or another's: write it anew");
     }
     CheckBeforeItk(path, format);
     m_IO->SetFileName(path.string());
@@ -111,7 +111,7 @@ public:
     const unsigned int dimensions = m_IO->GetNumberOfDimensions();
     if (dimensions < 3 || dimensions > 4)
     {
-      RefuseInput(path, Text(dimensions, "-D image"), "a volume with three axes in space is needed");
+      RefuseInput(path, Text(dimensions, "-D image"), "save one volume with three axes in space");
     }
     scan.format = FormatTitle(format);
     scan.files = { path };

@@ -123,7 +123,7 @@ CheckedBytes(const std::filesystem::path & path, const ItkScan & scan, std::uint
     if (side < 1 || side > (std::int64_t{ 1 } << 30) ||
         bytes > (std::uint64_t{ 1 } << 50) / static_cast<std::uint64_t>(side))
     {
-      RefuseInput(path, "its header gives a size that makes no sense", "the file is damaged");
+      RefuseInput(path, "its header gives a size that makes no sense", "the file is damaged: write it anew");
     }
     bytes *= static_cast<std::uint64_t>(side);
   }
@@ -154,7 +154,7 @@ Run(ItkFormat format, const std::filesystem::path & path, const std::string & da
   }
   if (volume >= source->scan.volumes || component >= source->scan.components)
   {
-    RefuseInput(path, "a volume was asked for that is not there", "report this as a fault");
+    RefuseInput(path, "a volume was asked for that is not there", "please report this as a fault");
   }
   LimitTo(fileBytes, bytes);
   source->Send(volume, component, WriteAll);

@@ -68,7 +68,9 @@ public:
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size())
     {
-      RefuseInput(m_Path, Text("its reader sent '", Printable(word), "' for a number"), "report this as a fault");
+      RefuseInput(m_Path,
+                  Text("its reader sent '", Printable(word), "' for a number"),
+                  "please report this as a fault");
     }
     return value;
   }
@@ -106,7 +108,7 @@ TakeLine(const std::filesystem::path & path, std::string_view line, ItkScan & sc
     const auto number = words.Value<unsigned>();
     if (number > static_cast<unsigned>(PixelType::Float64))
     {
-      RefuseInput(path, "its reader sent an unknown type", "report this as a fault");
+      RefuseInput(path, "its reader sent an unknown type", "please report this as a fault");
     }
     scan.type = static_cast<PixelType>(number);
   }
@@ -162,7 +164,7 @@ TakeLine(const std::filesystem::path & path, std::string_view line, ItkScan & sc
   }
   else
   {
-    RefuseInput(path, Text("its reader sent '", Printable(key), "'"), "report this as a fault");
+    RefuseInput(path, Text("its reader sent '", Printable(key), "'"), "please report this as a fault");
   }
 }
 

@@ -224,7 +224,7 @@ RequireSense(const TopologyRequest & request)
   {
     if (number && *number < 0)
     {
-      throw InputError("numbers of pieces, loops and cavities are 0 or more, not " + std::to_string(*number));
+      throw InputError("give numbers of pieces, loops and cavities of 0 or more, not " + std::to_string(*number));
     }
   }
 }

@@ -279,7 +279,7 @@ PlanBlocks(const VoxelShape & shape, const SpacingWeights & weights, std::vector
   }
   if (!apart || covered != CountCommon(whole, whole))
   {
-    throw UsageError("the blocks do not part the lattice corners of the shape's box");
+    throw UsageError("the blocks do not part the lattice corners of the shape's box; make the plan anew");
   }
   BlockPlan plan = StartPlan(shape, weights);
   plan.blocks = std::move(blocks);

@@ -273,7 +273,7 @@ RequireBlock(const BlockPlan & plan, std::size_t block)
 {
   if (block >= plan.blocks.size())
   {
-    throw UsageError("there is no block " + std::to_string(block) + " in a plan of " +
+    throw UsageError("there is no block " + std::to_string(block) + "; choose one of the plan's " +
                      std::to_string(plan.blocks.size()));
   }
 }

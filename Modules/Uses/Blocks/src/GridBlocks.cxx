@@ -87,7 +87,7 @@ PlanGrid(const VoxelBox & scan, const SpacingWeights & weights, std::int32_t sid
 {
   if (side < 8)
   {
-    throw UsageError("blocks are at least 8 voxels long");
+    throw UsageError("blocks must be at least 8 voxels long");
   }
   std::int64_t count = 1;
   for (const std::int32_t length : scan.size)

@@ -51,17 +51,17 @@ public:
     {
       throw InputError("block " + std::to_string(share.block + 1) +
                        " was cut from another shape, or with other options, "
-                       "than the first one given");
+                       "than the first one given; compute it again");
     }
     if (share.block >= share.blockCount)
     {
       throw InputError("a block has the number " + std::to_string(share.block + 1) + " of " +
-                       std::to_string(share.blockCount));
+                       std::to_string(share.blockCount) + "; compute it again");
     }
     const auto at = std::lower_bound(m_Blocks.begin(), m_Blocks.end(), share.block);
     if (at != m_Blocks.end() && *at == share.block)
     {
-      throw InputError("block " + std::to_string(share.block + 1) + " was given twice");
+      throw InputError("block " + std::to_string(share.block + 1) + " was given twice; give it once");
     }
     m_Blocks.insert(at, share.block);
     for (std::size_t point = 0; point < share.points.size(); ++point)

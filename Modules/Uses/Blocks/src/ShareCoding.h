@@ -232,7 +232,7 @@ private:
     m_End = static_cast<std::size_t>(m_Stream.gcount());
     if (m_Stream.bad())
     {
-      Fail("cannot be read");
+      Fail("cannot be read; compute this block again");
     }
     return m_End > 0;
   }

@@ -251,7 +251,7 @@ BatchOptionsFrom(const ParameterValues & values)
     }
     if (!options.skeletons)
     {
-      throw UsageError("--no-skeleton does not go with --" + CommandName(command));
+      throw UsageError("--no-skeleton does not go with --" + CommandName(command) + "; give either");
     }
     options.command = command;
   }

@@ -69,7 +69,7 @@ FindRecords(const fs::path & folder, const std::vector<CohortCase> & expected, c
   }
   if (records.empty())
   {
-    throw InputError(folder.string() + ": holds no case of 'voxelcore batch'");
+    throw InputError(folder.string() + ": holds no case of 'voxelcore batch'; give the folder it wrote into");
   }
   return records;
 }
@@ -236,7 +236,7 @@ GatherCohort(const fs::path &                folder,
   std::vector<PageCase> pageCases;
   if (!fs::is_directory(folder))
   {
-    throw InputError(folder.string() + ": no such folder");
+    throw InputError(folder.string() + ": no such folder; give the one that 'voxelcore batch' wrote into");
   }
   const CaseLock lock = WaitForTables(folder, context.progress);
   for (auto & [name, record] : FindRecords(folder, expected, failed))

@@ -108,7 +108,7 @@ RoleOf(const std::string & head, const std::string & where)
   }
   const std::string nearest = DidYouMean(name, names);
   throw InputError(where + ": column '" + head + "' is not known" +
-                   (nearest.empty() ? "; columns are id, scan, note and the options " + known : nearest));
+                   (nearest.empty() ? "; use id, scan, note and the options " + known : nearest));
 }
 
 std::vector<ColumnRole>
@@ -126,7 +126,7 @@ RolesOf(const CsvRow & head, const std::string & where)
                                                          : "";
     if (!key.empty() && ++seen[key] > 1)
     {
-      throw InputError(Text(where, ": column '", key, "' is there twice"));
+      throw InputError(Text(where, ": column '", key, "' is there twice; keep one"));
     }
   }
   for (const char * needed : { "id", "scan" })
@@ -191,7 +191,7 @@ CaseFrom(const CsvRow &                  row,
   if (row.fields.size() != roles.size())
   {
     throw InputError(where + ": has " + std::to_string(row.fields.size()) + " fields, the first line " +
-                     std::to_string(roles.size()));
+                     std::to_string(roles.size()) + "; write as many");
   }
   for (std::size_t i = 0; i < roles.size(); ++i)
   {
@@ -219,7 +219,7 @@ CaseFrom(const CsvRow &                  row,
   }
   if (one.id.empty() || one.scan.empty())
   {
-    throw InputError(where + ": the " + (one.id.empty() ? "id" : "scan") + " is empty");
+    throw InputError(where + ": the " + (one.id.empty() ? "id" : "scan") + " is empty; write one");
   }
   one.folder = CaseFolder(one.id);
   return one;
@@ -304,7 +304,7 @@ ReadManifest(const fs::path & manifest)
   if (const auto twice = CaseThatIsThereTwice(cases))
   {
     throw InputError(where(twice->second + 1) + ": the id '" + cases[twice->second].id + "' is on line " +
-                     std::to_string(rows[twice->first + 1].line) + " already");
+                     std::to_string(rows[twice->first + 1].line) + " already; give each case its own");
   }
   if (cases.empty())
   {

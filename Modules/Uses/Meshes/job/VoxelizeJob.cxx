@@ -202,7 +202,7 @@ RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resol
   const bool        toFolder = IsFolderOutput(options.output);
   if (options.display.scene || options.display.html || !options.join.empty())
   {
-    throw UsageError("--scene, --html and --join: are for one --resolution at a time");
+    throw UsageError("--scene, --html and --join: give one --resolution");
   }
   if (toFolder)
   {

@@ -308,7 +308,7 @@ PrepareSurface(const TriangleMesh & mesh)
   }
   if (surface.triangles.empty())
   {
-    throw InputError("it bounds nothing: no triangle has three corners that differ");
+    throw InputError("it bounds nothing: no triangle has three corners that differ; write it anew");
   }
   surface.findings.pieces = CountPieces(surface.triangles);
 

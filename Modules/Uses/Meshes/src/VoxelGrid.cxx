@@ -24,7 +24,7 @@ BoundsOf(const TriangleMesh & mesh)
 {
   if (mesh.triangles.empty())
   {
-    throw InputError("it has no triangles");
+    throw InputError("it has no triangles; save its surface as triangles");
   }
   Bounds bounds{ mesh.points[mesh.triangles.front()[0]], mesh.points[mesh.triangles.front()[0]] };
   for (const auto & triangle : mesh.triangles)
@@ -36,11 +36,12 @@ BoundsOf(const TriangleMesh & mesh)
         const double value = mesh.points[corner][axis];
         if (!std::isfinite(value))
         {
-          throw InputError("a coordinate is not a finite number");
+          throw InputError("a coordinate is not a finite number; write it anew");
         }
         if (std::abs(value) > kFarthest)
         {
-          throw InputError("a coordinate lies beyond 1e9 mm; the file is damaged, or its unit is none for a scan");
+          throw InputError(
+            "a coordinate lies beyond 1e9 mm; the file is damaged, or its unit is none for a scan: scale it to mm");
         }
         bounds.lower[axis] = std::min(bounds.lower[axis], value);
         bounds.upper[axis] = std::max(bounds.upper[axis], value);
@@ -87,7 +88,7 @@ GridOfResolution(const TriangleMesh & mesh, std::int64_t resolution)
   const double spacing = longest / static_cast<double>(resolution);
   if (!(spacing > 1e-9))
   {
-    throw InputError("it has no extent");
+    throw InputError("it has no extent; write it anew");
   }
   return GridOver(bounds, { spacing, spacing, spacing });
 }

@@ -221,7 +221,7 @@ RootCentreLines(const PhantomOptions & options)
   CheckPhantomOptions(options);
   if (options.kind != "root")
   {
-    throw UsageError("only the phantom 'root' has known centre lines");
+    throw UsageError("only the phantom 'root' has known centre lines; choose it");
   }
   return CentreLinesOfRoot(options);
 }
@@ -232,7 +232,7 @@ RootContacts(const PhantomOptions & options)
   CheckPhantomOptions(options);
   if (options.kind != "root")
   {
-    throw UsageError("only the phantom 'root' has known contacts");
+    throw UsageError("only the phantom 'root' has known contacts; choose it");
   }
   return ContactsOfRoot(options);
 }

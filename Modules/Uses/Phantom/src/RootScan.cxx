@@ -37,7 +37,7 @@ void
 CheckScanOptions(const RootScanOptions & options)
 {
   CheckPhantomOptions(options.root);
-  Require(options.root.kind == "root", "only the phantom 'root' is scanned");
+  Require(options.root.kind == "root", "choose the phantom 'root'");
   Require(options.hollow >= 0 && options.hollow <= 0.9, "give a hollow part of 0 to 0.9");
   Require(options.holes >= 0 && options.holes <= 10000, "give 0 to 10000 holes");
   Require(options.breaks >= 0 && options.breaks <= 10000, "give 0 to 10000 breaks");

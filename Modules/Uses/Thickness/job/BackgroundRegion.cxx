@@ -155,7 +155,8 @@ RegionOfBackground(const ThicknessOptions &        options,
   VoxelShape hull = HullOfVoxels(shapes);
   if (hull.CountVoxels() == 0)
   {
-    throw InputError(options.core.scan.string() + ": --separation hull: the labels lie in one plane");
+    throw InputError(options.core.scan.string() +
+                     ": --separation hull: the labels lie in one plane; give --separation box");
   }
   return hull;
 }

@@ -220,7 +220,7 @@ MapPoints(const fs::path & path, std::span<const AxisPlane> planes, const ImageG
   const std::string text{ std::istreambuf_iterator<char>(file), {} };
   if (!file)
   {
-    throw InputError(path.string() + ": cannot read this file");
+    throw InputError(path.string() + ": cannot read this file; check its name and permissions");
   }
   const auto                         rows = ParseCsv(text, path.string(), FindSeparator(text));
   std::map<std::string, std::size_t> columns;

@@ -116,7 +116,7 @@ RequireLength(const SkeletonWay & way)
 {
   if (way.places.size() < 2)
   {
-    throw UsageError("the way has no length");
+    throw UsageError("the way has no length; choose another branch, or ends that differ");
   }
 }
 
@@ -428,7 +428,7 @@ WayBetween(const SkeletonGraph & graph, const Vector3 & from, const Vector3 & to
   }
   if (lines.empty())
   {
-    throw UsageError("the skeleton has no branches");
+    throw UsageError("the skeleton has no branches; make it with --prune-branches 0");
   }
   const std::array<OnBranch, 2>             places{ NearestOn(lines, from), NearestOn(lines, to) };
   const std::vector<Piece>                  pieces = PiecesBetween(graph, lines, places);

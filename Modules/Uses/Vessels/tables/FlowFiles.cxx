@@ -112,7 +112,7 @@ RequireOpenBf(const FlowNetwork & network, const std::vector<NodeSegments> & at)
       const Vector3 & place = network.nodes[node].place;
       throw InputError(
         "openBF takes two or three vessels at a junction, of which one leads in and "
-        "one out, and not the " +
+        "one out; there are " +
         std::to_string(ending.size()) + " in and " + std::to_string(beginning.size()) + " out at " +
         FixedText(place[0]) + ", " + FixedText(place[1]) + ", " + FixedText(place[2]) + " (LPS mm)" + other);
     }
