@@ -46,7 +46,7 @@ def test_labels_of_a_file_have_names(scan):
     path, volume = scan
     assert voxelcore.core(path, label="femur LEFT").label == 3
     assert set(voxelcore.core(path, label=["Tibia", 3])) == {3, 8}
-    with pytest.raises(ValueError, match="no label of this name; the names are 'Femur left', 'Tibia'; did you mean 'Ti"):
+    with pytest.raises(ValueError, match="no label of this name; the names are 'Femur left', 'Tibia'; did you"):
         voxelcore.core(path, label="Tibula")
     with pytest.raises(ValueError, match="names are for files"):
         voxelcore.core(volume, label="Tibia")

@@ -103,7 +103,8 @@ def html_of_skeleton(skeleton):
     rows = _of_label(skeleton) + [
         (name, str(numbers[name])) for name in ("branches", "tips", "junctions", "cycles") if name in numbers
     ]
-    rows += [("length", f"{numbers['total_length']:.4g} {unit}"), ("mean radius", f"{numbers['mean_radius']:.4g} {unit}")]
+    rows += [(name.replace("total_", "").replace("_", " "), f"{numbers[name]:.4g} {unit}")
+             for name in ("total_length", "mean_radius")]  # fmt: skip
     return _picture(skeleton, plot_skeleton) + _table(rows)
 
 

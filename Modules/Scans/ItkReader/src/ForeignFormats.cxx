@@ -35,7 +35,8 @@ constexpr std::string_view kJpeg2000 =
   "folder"sv;
 // Lines for files that are voxels behind a header; foreign_lines_test.py runs each.
 constexpr std::string_view kAmira =
-  R"~(run python3 -c "d = open('{file}', 'rb').read(); open('{stem}.raw', 'wb').write(d[d.rindex(b'\n@1\n') + 4:-1])" and )~"
+  R"~(run python3 -c "d = open('{file}', 'rb').read(); )~"
+  R"~(open('{stem}.raw', 'wb').write(d[d.rindex(b'\n@1\n') + 4:-1])" and )~"
   "give {stem}.raw with --raw X,Y,Z,uint8, the sides as its 'define Lattice' has them; where that says HxByteRLE, "
   "save it as TIFF in Amira, or open it in Fiji"sv;
 constexpr std::string_view kInrimage =
@@ -48,8 +49,8 @@ constexpr std::string_view kDgtalVol =
 constexpr std::string_view kScanco =
   R"~(run python3 -c "import numpy; d = open('{file}', 'rb').read(); n = numpy.frombuffer(d, '<i4', 128); )~"
   R"~(numpy.save('{stem}.npy', numpy.frombuffer(d, '<i2', offset=512 * (n[127] + 1)).reshape(n[13:10:-1])); )~"
-  R"~(print('--spacing %gum,%gum,%gum' % tuple(n[14:17] / n[11:14]))" (Debian: python3-numpy) and give {stem}.npy with )~"
-  "what it prints"sv;
+  R"~(print('--spacing %gum,%gum,%gum' % tuple(n[14:17] / n[11:14]))" (Debian: python3-numpy) )~"
+  "and give {stem}.npy with what it prints"sv;
 constexpr std::string_view kMatlab =
   R"~(run python3 -c "import numpy, scipy.io; numpy.save('{stem}.npy', scipy.io.loadmat('{file}')['NAME'])" with the )~"
   "variable's name (Debian: python3-scipy) and give {stem}.npy, or write it from MATLAB with niftiwrite(labels, "
@@ -58,8 +59,10 @@ constexpr std::string_view kMatlab73 =
   R"~(run python3 -c "import h5py, numpy; numpy.save('{stem}.npy', h5py.File('{file}')['NAME'][()])" with the )~"
   "variable's name (Debian: python3-h5py) and give {stem}.npy"sv;
 constexpr std::string_view kN5 =
-  R"~(run python3 -c "import numpy, zarr; numpy.save('labels.npy', zarr.open(zarr.N5Store('{file}'), 'r')['NAME'][:])" )~"
-  "with the dataset's name (Debian: python3-zarr) and give labels.npy, or open it in Fiji and save its labels as TIFF"sv;
+  R"~(run python3 -c "import numpy, zarr; )~"
+  R"~(numpy.save('labels.npy', zarr.open(zarr.N5Store('{file}'), 'r')['NAME'][:])" )~"
+  "with the dataset's name (Debian: python3-zarr) and give labels.npy, or open it in Fiji and save its labels as "
+  "TIFF"sv;
 constexpr std::string_view kUnpack = "unpack it and give what is in it"sv;
 
 /** The first that fits is taken: magics before extensions. */
