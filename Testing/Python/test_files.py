@@ -157,15 +157,15 @@ def test_two_thousand_labels_fit_one_precomputed_folder(tmp_path):
     assert made.returncode == 0, made.stderr
     folder = tmp_path / "many_precomputed"
     for label in (1, 2, 999, 2000):
-        vertices, pairs, _ = read_skeleton(folder, label)
+        vertices, _, _ = read_skeleton(folder, label)
         place = numpy.argwhere(rods == label) * (0.01, 0.01, 0.04) * 1e6
         half = numpy.array((0.01, 0.01, 0.04)) / 2 * 1e6 + 1  # branches run up to the scan's border
-        assert (vertices >= place.min(0) - half).all() and (vertices <= place.max(0) + half).all() and len(pairs)
+        assert (vertices >= place.min(0) - half).all() and (vertices <= place.max(0) + half).all() and len(vertices)
     assert len(list(folder.iterdir())) == 2002
 
 
 def test_precomputed_meshes_are_those_of_the_specification(tmp_path):
-    surface = voxelcore.core(blobs(5), spacing=(0.5, 0.5, 1))
+    surface = voxelcore.core(blobs(5), spacing=(0.5, 0.5, 1), lambda_=0)
     surface.to_precomputed(tmp_path / "mesh")
     info = json.loads((tmp_path / "mesh/info").read_text())
     assert info["@type"] == "neuroglancer_legacy_mesh"
