@@ -99,7 +99,7 @@ OpenMgh(const std::filesystem::path & path, const ReadOptions & options)
   {
     RefuseInput(path,
                 "too short for the header of a FreeSurfer volume",
-                "fetch it anew, or give it the extension of its kind");
+                "the file is truncated or of another kind: fetch it anew");
   }
   scan.swapBytes = std::endian::native != std::endian::big;
   const HeaderFields header(bytes, scan.swapBytes);

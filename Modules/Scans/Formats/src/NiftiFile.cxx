@@ -112,7 +112,7 @@ ReadNiftiHeader(const std::filesystem::path & path)
   const std::size_t             got = stream->ReadSome(bytes.data(), bytes.size());
   if (got < kSize1)
   {
-    RefuseInput(path, "too short for a NIfTI header", "fetch it anew, or give it the extension of its kind");
+    RefuseInput(path, "too short for a NIfTI header", "the file is truncated or of another kind: fetch it anew");
   }
   NiftiHeader  h;
   std::int32_t size = 0;
