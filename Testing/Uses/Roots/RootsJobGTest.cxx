@@ -254,19 +254,21 @@ TEST_F(RootsJob, TheReportHoldsTheContactsAndWhichWayIsUp)
 
 TEST_F(RootsJob, PiecesThatAreLeftOutAreWarnedOfAndLoosePiecesAreMarked)
 {
-  PhantomJobOptions phantom = Scan("whole.nrrd");
-  const RootsResult whole = Roots("whole.nrrd", "whole/");
+  // How wide gaps are depends on the threshold.
+  const ParameterValues halfway{ { "threshold", "20000:inf" } };
+  PhantomJobOptions     phantom = Scan("whole.nrrd");
+  const RootsResult     whole = Roots("whole.nrrd", "whole/", halfway);
   EXPECT_TRUE(whole.warnings.empty());
   phantom.scan->breaks = 4;
   phantom.output = At("torn.nrrd");
   RunPhantomJob(phantom);
-  const RootsResult mended = Roots("torn.nrrd", "mended/");
+  const RootsResult mended = Roots("torn.nrrd", "mended/", halfway);
   EXPECT_TRUE(mended.warnings.empty());
   EXPECT_GT(mended.report.labels.at(0).edits->torn->componentsJoined, 0U);
   EXPECT_EQ(mended.model.roots.axes.size(), whole.model.roots.axes.size());
   EXPECT_NEAR(mended.model.traits.levels.back().totalLength / whole.model.traits.levels.back().totalLength, 1, 0.02);
   // As where pieces lie too far apart.
-  const RootsResult torn = Roots("torn.nrrd", "torn/", {}, 0);
+  const RootsResult torn = Roots("torn.nrrd", "torn/", halfway, 0);
   ASSERT_EQ(torn.warnings.size(), 1U);
   EXPECT_NE(torn.warnings[0].find("are left out"), std::string::npos);
   const RootsResult joined = Roots("torn.nrrd", "joined/", { { "min-voxels", "20" } }, 0);
