@@ -74,7 +74,7 @@ RecordedReading(const ParameterRecord & parameters);
 
 /** The scan that a file was made from, read as it was then. Where that was a grey scan with a threshold and `path` is
  *  the mask that came of it, such as the one `roots` writes, it is taken as it is: `parameters` then tell of neither
- *  threshold nor edits, which are in it, and a note says so. 	hrows as ReadScanOrMesh */
+ *  threshold nor edits, which are in it, and a note says so. \throws as ReadScanOrMesh */
 InputScan
 ReadScanAgain(const std::filesystem::path & path,
               ParameterRecord &             parameters,
