@@ -199,6 +199,7 @@ TEST(ModelFailures, NumbersThatNoSkeletonHasAreRefusedInOneLine)
   graph.sectionRadius = { 1, 1, 1 };
   graph.erosionThickness = { 0, 0, std::numeric_limits<double>::infinity() };
   SortBranches(graph, { { 0, 1, 2 } }, false);
+  model.parts.front().table = MeasureBranches(graph);
   WriteSkeletonVtp(folder / "a.vtp", model);
   EXPECT_EQ(ReadSkeletonVtp(folder / "a.vtp").parts.front().graph.radius, graph.radius);
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
