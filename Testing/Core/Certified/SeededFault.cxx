@@ -90,6 +90,22 @@ DamageCore(MedialComplex & core)
   }
 }
 
+CurveOptions
+OptionsOfCurves(CurveOptions options)
+{
+  options.branchThreshold *= IsSeeded("branches") ? 10 : 1;
+  return options;
+}
+
+void
+DamageCurves(CurveSkeleton & skeleton)
+{
+  if (IsSeeded("skeleton"))
+  {
+    Damage(skeleton.complex);
+  }
+}
+
 } // namespace
 
 // NOLINTBEGIN: names as the linker has them
@@ -120,6 +136,9 @@ DamageCore(MedialComplex & core)
 #define VOXELCORE_CURVES                                                                                             \
   "_ZN9voxelcore20ComputeCurveSkeletonERKNS_13MedialComplexEPKNS_12LiveElementsERKNS_12CurveOptionsERKSt8functionIF" \
   "bSt17basic_string_viewIcSt11char_traitsIcEEdEE"
+#define VOXELCORE_CURVES_OF_ALL                                                                                   \
+  "_ZN9voxelcore20ComputeCurveSkeletonERNS_13MedialComplexERKNS_12CurveOptionsERKSt8functionIFbSt17basic_string_" \
+  "viewIcSt11char_traitsIcEEdEE"
 #define VOXELCORE_GAP "_ZNK9voxelcore8BallTree3GapERKSt5arrayIdLm3EEd"
 #define VOXELCORE_NEAREST_GAP VOXELCORE_GAP "Rm"
 #define VOXELCORE_BRACKET                                                                                      \
@@ -334,13 +353,22 @@ FaultyCurves(const MedialComplex &    surface,
              const CurveOptions &     options,
              const ProgressCallback & progress)
 {
-  CurveOptions chosen = options;
-  chosen.branchThreshold *= IsSeeded("branches") ? 10 : 1;
-  CurveSkeleton skeleton = TrueCurves(surface, part, chosen, progress);
-  if (IsSeeded("skeleton"))
-  {
-    Damage(skeleton.complex);
-  }
+  CurveSkeleton skeleton = TrueCurves(surface, part, OptionsOfCurves(options), progress);
+  DamageCurves(skeleton);
+  return skeleton;
+}
+
+CurveSkeleton
+TrueCurvesOfAll(MedialComplex &, const CurveOptions &, const ProgressCallback &) asm("__real_" VOXELCORE_CURVES_OF_ALL);
+CurveSkeleton
+FaultyCurvesOfAll(MedialComplex &,
+                  const CurveOptions &,
+                  const ProgressCallback &) asm("__wrap_" VOXELCORE_CURVES_OF_ALL);
+CurveSkeleton
+FaultyCurvesOfAll(MedialComplex & surface, const CurveOptions & options, const ProgressCallback & progress)
+{
+  CurveSkeleton skeleton = TrueCurvesOfAll(surface, OptionsOfCurves(options), progress);
+  DamageCurves(skeleton);
   return skeleton;
 }
 

@@ -212,8 +212,8 @@ TEST(ItkShapeFilter, RefusesInOneLineWhatTheReaderRefuses)
   const auto bar = MakeImage<float>({ { 8, 4, 5 } }, Bar);
   const auto nothing = [](auto &) {};
   EXPECT_EQ(refuse(MakeImage<float>({ { 8, 4, 5 } }, [](int x, int, int) { return 0.5 * x; }), nothing),
-            "the input image: value 0.5 at voxel (1,0,0) is a fraction; labels are whole numbers from 0 up; for a grey "
-            "scan give --threshold LO:HI");
+            "the input image: value 0.5 at voxel (1,0,0) is a fraction; labels are whole numbers from 0 up; for a mask "
+            "of 0 and 1 give --threshold 0.5:inf, for a grey scan give --threshold LO:HI");
   EXPECT_EQ(refuse(MakeImage<float>({ { 8, 4, 5 } }, [](int, int, int) { return 0; }), nothing),
             "the input image: nothing but background: every voxel is 0; name a scan with labels");
   EXPECT_EQ(refuse(bar, [](auto & filter) { filter.SetLabel(3); }), "the input image: there is no label '3'; it has 1");

@@ -99,7 +99,7 @@ TEST_F(Manifest, MistypedColumnsSuggestTheNearest)
 {
   EXPECT_THAT(Refusal("id,scan,lamda\na,b,1\n"), HasSubstr("'lamda' is not known; did you mean 'lambda'?"));
   EXPECT_THAT(Refusal("id,scn\na,b\n"), HasSubstr("did you mean 'scan'?"));
-  EXPECT_THAT(Refusal("id,scan,favourite\na,b,1\n"), HasSubstr("columns are id, scan, note and the options labels, "));
+  EXPECT_THAT(Refusal("id,scan,favourite\na,b,1\n"), HasSubstr("use id, scan, note and the options labels, "));
 }
 
 TEST_F(Manifest, WhatCannotBeUnderstoodIsRefusedWithFileAndLine)

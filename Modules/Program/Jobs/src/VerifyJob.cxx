@@ -284,7 +284,7 @@ ReadSurface(const std::filesystem::path & path)
     }
   }
   throw InputError(path.string() +
-                   ": is a skeleton, which is checked in the run that makes it, against the voxels: see " +
+                   ": it is a skeleton, which is checked in the run that makes it, against the voxels: see " +
                    "'certificate' in the report of 'voxelcore skeleton --report'; here give a medial surface of " +
                    "'voxelcore core'");
 }
