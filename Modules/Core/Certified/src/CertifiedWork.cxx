@@ -138,14 +138,17 @@ private:
     Stopwatch              watch;
     const ProgressCallback prune = m_Plan.Next(RefinesCores(m_Request) ? "core" : "prune");
     ReportProgress(prune, "", 0);
-    MedialComplex & core = m_Whole.core.core.core;
+    MedialComplex &                core = m_Whole.core.core.core;
+    std::optional<TopologyNumbers> counted;
     RunBoth(
       core.cells.FaceCount() > 10000,
       [&] { m_Whole.core.numbers.complex = DescribeComplex(core, m_Result.shape.topology); },
-      [&] {
-        const TopologyNumbers counted = ComputeComplexTopology(core.cells);
-        RequireEqualTopology(m_Result.shape.topology, counted, "its core", m_Request.name);
-      });
+      [&] { counted = ComputeComplexTopology(core.cells); });
+    if (!counted)
+    {
+      RefuseResult(m_Request.name, "its core was not counted");
+    }
+    RequireEqualTopology(m_Result.shape.topology, *counted, "its core", m_Request.name);
     if (m_Request.tolerances.empty() && !RefinesCores(m_Request))
     {
       m_Pruned = LambdasSpendWhole() ? PruneByLambda(std::move(core), AscendingBeyond(0, m_Thresholds), prune)
