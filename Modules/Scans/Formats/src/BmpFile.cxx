@@ -1,5 +1,5 @@
 #include "BmpFile.h"
-
+#include "PieceStream.h"
 #include "HeaderFields.h"
 #include "voxelcore/Base/TextFields.h"
 
@@ -93,46 +93,25 @@ ReadHeader(const std::filesystem::path & path)
   return header;
 }
 
-class BmpStream : public ByteStream
+class BmpStream : public PieceStream
 {
 public:
   explicit BmpStream(const std::filesystem::path & path)
-    : ByteStream(path)
+    : PieceStream(path)
     , m_Header(ReadHeader(path))
     , m_Rows(m_Header.rowBytes * m_Header.page.height)
     , m_Row(m_Header.page.width)
-    , m_At(m_Row.size())
   {
     OpenBytes(path, m_Header.offset, Packing::Plain)->Read(m_Rows.data(), m_Rows.size());
   }
 
-  std::size_t
-  ReadSome(std::byte * to, std::size_t count) override
-  {
-    std::size_t done = 0;
-    while (done < count && (m_At < m_Row.size() || NextRow()))
-    {
-      const std::size_t now = std::min(count - done, m_Row.size() - m_At);
-      std::memcpy(to + done, m_Row.data() + m_At, now);
-      done += now;
-      m_At += now;
-    }
-    return done;
-  }
-
-  bool
-  Finish() override
-  {
-    return false;
-  }
-
 private:
-  bool
-  NextRow()
+  std::span<const std::byte>
+  NextPiece() override
   {
     if (m_Next == m_Header.page.height)
     {
-      return false;
+      return {};
     }
     const std::uint32_t     row = m_Header.isUpwards ? m_Header.page.height - 1 - m_Next : m_Next;
     const std::byte * const from = m_Rows.data() + row * m_Header.rowBytes;
@@ -151,14 +130,12 @@ private:
       m_Row[x] = m_Header.grey[static_cast<std::size_t>(index)];
     }
     ++m_Next;
-    m_At = 0;
-    return true;
+    return m_Row;
   }
 
   BmpHeader              m_Header;
   std::vector<std::byte> m_Rows; ///< as they lie in the file
   std::vector<std::byte> m_Row;
-  std::size_t            m_At;
   std::uint32_t          m_Next = 0;
 };
 

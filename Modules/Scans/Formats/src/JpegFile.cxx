@@ -1,5 +1,5 @@
 #include "JpegFile.h"
-
+#include "PieceStream.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/ScanFile.h"
 
@@ -170,50 +170,30 @@ private:
   bool                       m_IsOpen = false;
 };
 
-class JpegStream : public ByteStream
+class JpegStream : public PieceStream
 {
 public:
   explicit JpegStream(const std::filesystem::path & path)
-    : ByteStream(path)
+    : PieceStream(path)
     , m_Reader(path)
     , m_Row(m_Reader.Page().width)
-    , m_At(m_Row.size())
   {}
 
-  std::size_t
-  ReadSome(std::byte * to, std::size_t count) override
-  {
-    std::size_t done = 0;
-    while (done < count)
-    {
-      if (m_At == m_Row.size())
-      {
-        if (m_Next == m_Reader.Page().height)
-        {
-          break;
-        }
-        m_Reader.NextRow(m_Row);
-        ++m_Next;
-        m_At = 0;
-      }
-      const std::size_t now = std::min(count - done, m_Row.size() - m_At);
-      std::memcpy(to + done, m_Row.data() + m_At, now);
-      done += now;
-      m_At += now;
-    }
-    return done;
-  }
-
-  bool
-  Finish() override
-  {
-    return false;
-  }
-
 private:
+  std::span<const std::byte>
+  NextPiece() override
+  {
+    if (m_Next == m_Reader.Page().height)
+    {
+      return {};
+    }
+    m_Reader.NextRow(m_Row);
+    ++m_Next;
+    return m_Row;
+  }
+
   JpegReader             m_Reader;
   std::vector<std::byte> m_Row;
-  std::size_t            m_At;
   std::uint32_t          m_Next = 0;
 };
 

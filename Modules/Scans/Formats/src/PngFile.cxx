@@ -1,4 +1,5 @@
 #include "PngFile.h"
+#include "PieceStream.h"
 #include "PlainStream.h"
 #include "voxelcore/Base/TextFields.h"
 
@@ -211,11 +212,11 @@ private:
   std::array<char, 200> m_Error{};
 };
 
-class PngStream : public ByteStream
+class PngStream : public PieceStream
 {
 public:
   PngStream(const std::filesystem::path & path, const ReadOptions & options)
-    : ByteStream(path)
+    : PieceStream(path)
     , m_Png(path)
     , m_Page(m_Png.ReadHeader(options))
   {
@@ -229,58 +230,37 @@ public:
     {
       m_Rows.resize(m_RowBytes);
     }
-    m_At = m_Width = m_Page.width * PixelBytes(m_Page.Type());
+    m_Width = m_Page.width * PixelBytes(m_Page.Type());
     m_Values.resize(m_Page.samples > 1 ? m_Width : 0);
-  }
-
-  std::size_t
-  ReadSome(std::byte * to, std::size_t count) override
-  {
-    std::size_t done = 0;
-    while (done < count)
-    {
-      if (m_At == m_Width)
-      {
-        if (m_Next == m_Page.height)
-        {
-          break;
-        }
-        NextRow();
-      }
-      const std::size_t now = std::min(count - done, m_Width - m_At);
-      std::memcpy(to + done, m_Row + m_At, now);
-      done += now;
-      m_At += now;
-    }
-    return done;
   }
 
   bool
   Finish() override
   {
-    while (m_Next < m_Page.height)
-    {
-      NextRow();
-    }
+    while (!NextPiece().empty())
+    {}
     m_Png.Finish();
     return false;
   }
 
 private:
-  void
-  NextRow()
+  std::span<const std::byte>
+  NextPiece() override
   {
-    m_Row = m_Rows.data();
+    if (m_Next == m_Page.height)
+    {
+      return {};
+    }
+    const std::byte * row = m_Rows.data();
     if (m_Png.IsInterlaced())
     {
-      m_Row += m_Next * m_RowBytes;
+      row += m_Next * m_RowBytes;
     }
     else
     {
       m_Png.ReadRow(m_Rows.data());
     }
     ++m_Next;
-    m_At = 0;
     if (m_Page.samples > 1)
     {
       const std::size_t bytes = PixelBytes(m_Page.Type());
@@ -288,21 +268,20 @@ private:
       for (std::size_t x = 0; x < m_Page.width; ++x)
       {
         std::memcpy(m_Values.data() + x * bytes,
-                    m_Row + (x * samples + static_cast<std::size_t>(m_Page.component)) * bytes,
+                    row + (x * samples + static_cast<std::size_t>(m_Page.component)) * bytes,
                     bytes);
       }
-      m_Row = m_Values.data();
+      row = m_Values.data();
     }
+    return { row, m_Width };
   }
 
   PngHandle              m_Png;
   PngPage                m_Page;
   std::size_t            m_RowBytes = 0;
-  std::vector<std::byte> m_Rows;   ///< as libpng gives them: one, or all of an interlaced image
-  std::vector<std::byte> m_Values; ///< a row of the component chosen
-  const std::byte *      m_Row = nullptr;
+  std::vector<std::byte> m_Rows;      ///< as libpng gives them: one, or all of an interlaced image
+  std::vector<std::byte> m_Values;    ///< a row of the component chosen
   std::size_t            m_Width = 0; ///< bytes a row
-  std::size_t            m_At = 0;    ///< in the row
   std::uint32_t          m_Next = 0;
 };
 

@@ -1,5 +1,6 @@
 // The voxels of TIFF pages, page by page.
 
+#include "PieceStream.h"
 #include "TiffFile.h"
 #include "TiffHandle.h"
 
@@ -10,43 +11,20 @@ namespace voxelcore
 namespace
 {
 
-class TiffStream : public ByteStream
+class TiffStream : public PieceStream
 {
 public:
   TiffStream(const std::filesystem::path & path, TiffPages pages)
-    : ByteStream(path)
+    : PieceStream(path)
     , m_Tiff(path)
     , m_Pages(std::move(pages))
   {}
-
-  std::size_t
-  ReadSome(std::byte * to, std::size_t count) override
-  {
-    std::size_t done = 0;
-    while (done < count)
-    {
-      if (m_At == m_Page.size())
-      {
-        if (m_Next == m_Pages.offsets.size())
-        {
-          break;
-        }
-        DecodePage(m_Pages.offsets[m_Next++]);
-        m_At = 0;
-      }
-      const std::size_t now = std::min(count - done, m_Page.size() - m_At);
-      std::memcpy(to + done, m_Page.data() + m_At, now);
-      done += now;
-      m_At += now;
-    }
-    return done;
-  }
 
   void
   Skip(std::uint64_t count) override
   {
     const std::uint64_t pageBytes = m_Pages.PageBytes();
-    while (count >= pageBytes && m_At == m_Page.size() && m_Next < m_Pages.offsets.size())
+    while (count >= pageBytes && IsBetweenPieces() && m_Next < m_Pages.offsets.size())
     {
       ++m_Next;
       count -= pageBytes;
@@ -54,13 +32,18 @@ public:
     ByteStream::Skip(count);
   }
 
-  bool
-  Finish() override
+private:
+  std::span<const std::byte>
+  NextPiece() override
   {
-    return false;
+    if (m_Next == m_Pages.offsets.size())
+    {
+      return {};
+    }
+    DecodePage(m_Pages.offsets[m_Next++]);
+    return m_Page;
   }
 
-private:
   /** Values of a row of a strip or tile, from `fromX` on, into the page. */
   void
   PutRow(const std::byte * row, std::uint32_t x, std::uint32_t y, std::uint32_t count)
@@ -170,7 +153,6 @@ private:
   TiffPages              m_Pages;
   std::vector<std::byte> m_Page;
   std::vector<std::byte> m_Part;
-  std::size_t            m_At = 0;
   std::size_t            m_Next = 0;
 };
 

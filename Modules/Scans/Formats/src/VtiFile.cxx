@@ -1,6 +1,7 @@
 // VTK's image data in XML, .vti: values of points or of cells, as text, base64 or raw, plain or packed by zlib. VTK's
 // own reader allocates what the header says, and comes whole; here every count is held against what the file has.
 
+#include "PieceStream.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 
@@ -251,11 +252,11 @@ private:
 };
 
 /** Blocks packed by zlib, of equal size but the last; their sizes stand before them. */
-class BlockStream : public ByteStream
+class BlockStream : public PieceStream
 {
 public:
   BlockStream(const std::filesystem::path & path, std::unique_ptr<ByteStream> packed, std::size_t width, bool isBig)
-    : ByteStream(path)
+    : PieceStream(path)
     , m_Packed(std::move(packed))
     , m_Width(width)
     , m_IsBig(isBig)
@@ -274,34 +275,24 @@ public:
     }
   }
 
-  std::size_t
-  ReadSome(std::byte * to, std::size_t count) override
-  {
-    std::size_t done = 0;
-    while (done < count)
-    {
-      if (m_At == m_Block.size())
-      {
-        if (m_Next == m_Blocks)
-        {
-          break;
-        }
-        Unpack();
-      }
-      const std::size_t now = std::min(count - done, m_Block.size() - m_At);
-      std::memcpy(to + done, m_Block.data() + m_At, now);
-      done += now;
-      m_At += now;
-    }
-    return done;
-  }
   bool
   Finish() override
   {
-    return m_At < m_Block.size() || m_Next < m_Blocks;
+    return !IsBetweenPieces() || m_Next < m_Blocks;
   }
 
 private:
+  std::span<const std::byte>
+  NextPiece() override
+  {
+    m_Block.clear();
+    while (m_Block.empty() && m_Next < m_Blocks)
+    {
+      Unpack();
+    }
+    return m_Block;
+  }
+
   std::uint64_t
   Number()
   {
@@ -336,7 +327,6 @@ private:
     {
       RefuseVti(m_Path, Text("its packed block ", m_Next, " does not unpack to its size"));
     }
-    m_At = 0;
     ++m_Next;
   }
 
@@ -349,7 +339,6 @@ private:
   std::vector<std::uint64_t>  m_Sizes;
   std::uint64_t               m_Next = 0;
   Bytes                       m_Block;
-  std::size_t                 m_At = 0;
 };
 
 /** The first bytes that a run of base64 stands for, at most `most`; `text` then begins with the next run. */
