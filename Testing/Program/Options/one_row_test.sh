@@ -58,6 +58,6 @@ PYTHONPATH=build/python /usr/bin/python3 - <<'PYTHON' || fail "not in Python"
 import numpy, voxelcore
 core = voxelcore.core(numpy.ones((5, 5, 5), int), trial_option="word")
 assert core.report["parameters"]["trial_option"] == "word"
-assert "trial_option: Try what a row gives" in voxelcore.core.__doc__
+assert "trial_option : str, optional\n        Try what a row gives" in voxelcore.core.__doc__
 PYTHON
 echo "One row is an option everywhere."
