@@ -4,7 +4,7 @@
 # (a real scan), picture (to render where there is no screen), guide (to build the guide's site), test, package (to make
 # and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), analysis (what
 # reads the sources, and valgrind), browser (tests of pages), cluster (workflows, and the tests on a cluster), container
-# (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance)
+# (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance), web (WebAssembly)
 set -euo pipefail
 
 packages_of() {
@@ -29,10 +29,11 @@ packages_of() {
     container) echo buildah podman runc debootstrap mricron-data ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
+    web) echo emscripten node-acorn cmake ninja-build ccache dpkg-dev libboost-dev libcli11-dev nlohmann-json3-dev ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
-            "package, sanitizer, analysis, browser, cluster, container, reproduction and bench" >&2
+            "package, sanitizer, analysis, browser, cluster, container, reproduction, bench and web" >&2
        return 2 ;;
   esac
 }

@@ -4,6 +4,7 @@
 #include "MainStack.h"
 #include "Signals.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Cohort/Admission.h"
 #include "voxelcore/Jobs/OutputNames.h"
 

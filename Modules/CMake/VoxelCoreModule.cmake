@@ -4,6 +4,8 @@ target_compile_features(VoxelCoreBuildRules INTERFACE cxx_std_20)
 # No contraction, no fast-math: the same bits on every machine.
 target_compile_options(VoxelCoreBuildRules INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wconversion;-Wno-sign-conversion;-ffp-contract=off>
+  # Of 32-bit addresses: what is counted in 64 bits is an index of an array.
+  $<$<PLATFORM_ID:Emscripten>:-Wno-shorten-64-to-32>
   # Of types in unnamed namespaces GCC asks that they stand in the file it was called for; here that includes it.
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<BOOL:${VOXELCORE_UNITY}>>:-Wno-subobject-linkage>
   $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${VOXELCORE_WERROR}>>:-Werror>
@@ -23,7 +25,7 @@ function(voxelcore_library target)
     target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/inner>")
   endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON POSITION_INDEPENDENT_CODE ON
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON POSITION_INDEPENDENT_CODE $<NOT:$<PLATFORM_ID:Emscripten>>
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:VoxelCoreBuildRules>)
   target_link_options(${target} INTERFACE

@@ -31,6 +31,29 @@ namespace
 using testing::TemporaryFolder;
 using testing::WriteAll;
 
+TEST(SystemCalls, MemoryIsPlausible)
+{
+  const std::vector<char> taken(64U << 20U, 'x');
+  EXPECT_TRUE(PeakMemoryMb() == 0 || PeakMemoryMb() > 64) << taken[5];
+  EXPECT_LT(PeakMemoryMb(), 100000);
+  EXPECT_GT(AvailableMemoryMb().value_or(2), 1);
+}
+
+TEST(SystemCalls, AFolderGoesWithItsContentsOnlyWhereThatIsAsked)
+{
+  const TemporaryFolder folder;
+  const auto            full = folder.Path() / "full";
+  std::filesystem::create_directories(full / "inner");
+  WriteAll(full / "inner" / "file", "text");
+  RemoveNow(full.c_str(), false);
+  EXPECT_TRUE(std::filesystem::exists(full / "inner" / "file"));
+  RemoveNow(full.c_str(), true);
+  EXPECT_FALSE(std::filesystem::exists(full));
+  WriteAll(folder.Path() / "file", "text");
+  RemoveNow((folder.Path() / "file").c_str(), false);
+  EXPECT_FALSE(std::filesystem::exists(folder.Path() / "file"));
+}
+
 TEST(SystemCalls, AProcessIsTheSameAsOftenAsItIsAsked)
 {
   const ProcessFacts once = ThisProcess();

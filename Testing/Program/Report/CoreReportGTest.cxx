@@ -302,11 +302,5 @@ TEST(CoreReport, DescribesAreaAndRadius)
   EXPECT_EQ(record.faces, 2U);
 }
 
-TEST(CoreReport, PeakMemoryIsPlausible)
-{
-  EXPECT_GT(PeakMemoryMb(), 1);
-  EXPECT_LT(PeakMemoryMb(), 100000);
-}
-
 } // namespace
 } // namespace voxelcore

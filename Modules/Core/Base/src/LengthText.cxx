@@ -1,6 +1,7 @@
 #include "voxelcore/Base/LengthText.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 
 #include <charconv>
 #include <cmath>
@@ -28,7 +29,7 @@ ReadLength(std::string_view text, const std::function<void(const char *)> & refu
   }
   const char * first = length.text.data();
   const char * last = first + length.text.size();
-  const auto   parsed = std::from_chars(first, last, length.value);
+  const auto   parsed = from_chars(first, last, length.value);
   if (parsed.ec != std::errc{} || !std::isfinite(length.value))
   {
     refuse("is not a number");

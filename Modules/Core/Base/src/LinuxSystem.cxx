@@ -5,12 +5,15 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <fstream>
 #include <optional>
 #include <sstream>
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 namespace voxelcore
@@ -58,6 +61,37 @@ StateOf(std::int64_t process)
   return fields ? std::optional(state) : std::nullopt;
 }
 
+/** Removes what is in a directory, folders in it to a depth. What a signal handler may call, which readdir() is not. */
+void
+RemoveFilesIn(int parent, const char * path, int depth)
+{
+  // Of each linux_dirent64: where its length and its name stand.
+  constexpr long lengthAt = 16;
+  constexpr long nameAt = 19;
+  const int      directory = openat(parent, path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (directory < 0)
+  {
+    return;
+  }
+  alignas(std::uint64_t) std::array<char, 4096> buffer;
+  for (long size = 0; (size = syscall(SYS_getdents64, directory, buffer.data(), buffer.size())) > 0;)
+  {
+    std::uint16_t length = 0;
+    for (long at = 0; at < size; at += length)
+    {
+      std::memcpy(&length, buffer.data() + at + lengthAt, sizeof(length));
+      const char * name = buffer.data() + at + nameAt;
+      const bool   itself = std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0;
+      if (!itself && unlinkat(directory, name, 0) != 0 && depth > 0)
+      {
+        RemoveFilesIn(directory, name, depth - 1);
+        unlinkat(directory, name, AT_REMOVEDIR);
+      }
+    }
+  }
+  close(directory);
+}
+
 } // namespace
 
 ProcessFacts
@@ -88,6 +122,56 @@ HasProcessEnded(std::int64_t process, std::uint64_t start)
   }
   const auto state = StateOf(process);
   return state && (state->start != start || state->state == 'Z' || state->state == 'X');
+}
+
+bool
+CanStartThreads()
+{
+  return true;
+}
+
+double
+PeakMemoryMb()
+{
+  // VmHWM begins anew with the program; ru_maxrss would count what the starting process had.
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+  {
+    if (line.starts_with("VmHWM:"))
+    {
+      return std::stod(line.substr(6)) / 1024;
+    }
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+std::optional<double>
+AvailableMemoryMb()
+{
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line.starts_with("MemAvailable:"))
+    {
+      return 0.9 * std::stod(line.substr(13)) * 1024 / 1e6;
+    }
+  }
+  return std::nullopt;
+}
+
+void
+RemoveNow(const char * path, bool withContents)
+{
+  if (unlink(path) != 0)
+  {
+    if (withContents)
+    {
+      RemoveFilesIn(AT_FDCWD, path, 3);
+    }
+    rmdir(path);
+  }
 }
 
 void

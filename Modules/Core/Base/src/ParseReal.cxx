@@ -1,5 +1,7 @@
 #include "voxelcore/Base/ParseReal.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -19,7 +21,7 @@ IsTiny(std::string_view text)
   {
     std::string_view digits = text.substr(mark + 1);
     digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
-    const auto error = std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec;
+    const auto error = from_chars(digits.data(), digits.data() + digits.size(), exponent).ec;
     if (error != std::errc())
     {
       return digits.starts_with('-');
@@ -44,7 +46,7 @@ ParseReal(std::string_view text)
     text.remove_prefix(1);
   }
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || text.empty())
   {
     return std::nullopt;

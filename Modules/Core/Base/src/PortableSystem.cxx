@@ -6,6 +6,10 @@
 #include <fstream>
 #include <random>
 
+#ifdef __EMSCRIPTEN__
+#  include <emscripten/heap.h>
+#endif
+
 namespace voxelcore
 {
 
@@ -28,6 +32,39 @@ bool
 HasProcessEnded(std::int64_t, std::uint64_t)
 {
   return false;
+}
+
+bool
+CanStartThreads()
+{
+#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
+  return false;
+#else
+  return true;
+#endif
+}
+
+double
+PeakMemoryMb()
+{
+#ifdef __EMSCRIPTEN__
+  return static_cast<double>(emscripten_get_heap_size()) / (1U << 20U); // it only grows
+#else
+  return 0;
+#endif
+}
+
+std::optional<double>
+AvailableMemoryMb()
+{
+  return std::nullopt;
+}
+
+void
+RemoveNow(const char * path, bool withContents)
+{
+  std::error_code ignored;
+  withContents ? std::filesystem::remove_all(path, ignored) : std::filesystem::remove(path, ignored);
 }
 
 void

@@ -1,5 +1,6 @@
 #include "voxelcore/Base/TemporaryNames.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/SystemCalls.h"
 
 #include <array>
@@ -33,7 +34,7 @@ template <typename Number>
 bool
 TakeNumber(std::string_view & text, Number & number, int base)
 {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, base);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number, base);
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return error == std::errc();
 }

@@ -1,5 +1,7 @@
 #include "voxelcore/Base/Text.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -26,7 +28,7 @@ std::string
 RoundTripText(double value)
 {
   std::array<char, 64> digits{};
-  return { digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr };
+  return { digits.data(), to_chars(digits.data(), digits.data() + digits.size(), value).ptr };
 }
 
 std::string

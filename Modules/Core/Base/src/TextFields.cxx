@@ -1,6 +1,7 @@
 #include "voxelcore/Base/TextFields.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/PlainText.h"
 #include "voxelcore/Base/Text.h"
 
@@ -60,7 +61,7 @@ ParseInteger(std::string_view word)
     word.remove_prefix(1);
   }
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size())
   {
     return std::nullopt;

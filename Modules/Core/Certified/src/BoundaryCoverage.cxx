@@ -2,6 +2,7 @@
 
 #include "CertificateText.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Verification/BallCoverage.h"
 #include "voxelcore/Verification/Verification.h"
 
@@ -31,7 +32,7 @@ BoundaryGapsOf(const PlacedCore & core, const VoxelShape & voxels, const ImageGe
 double
 BoundaryGapTolerance(const ImageGeometry & geometry)
 {
-  const auto [least, largest] = std::ranges::minmax(geometry.spacing);
+  const auto [least, largest] = ranges::minmax(geometry.spacing);
   return 4 * PositionTolerance(geometry) * largest * (largest / least); // nothing is weighed more
 }
 
@@ -50,7 +51,7 @@ CertifyCoverage(CertifiedCore & core, const VoxelShape & voxels, const Certified
   }
   const double promised =
     core.numbers.refined ? RefinedGapBound(tolerance.heightMm, geometry.spacing).weighed : tolerance.heightMm;
-  const auto [least, largest] = std::ranges::minmax(geometry.spacing);
+  const auto [least, largest] = ranges::minmax(geometry.spacing);
   if (least != largest && promised > 0)
   {
     tolerance.boundaryGapShare = gaps.weighed.largest / promised;

@@ -3,6 +3,7 @@
 #include "CertificateText.h"
 #include "SkeletonSteps.h"
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/LabelNetwork.h"
 #include "voxelcore/Verification/NetworkVerification.h"
 
@@ -56,7 +57,7 @@ NetworkInWords(const MeasuredSkeleton & skeleton, SpatialUnit unit)
   const SkeletonNetwork &  network = *skeleton.network;
   std::vector<std::string> lines;
   const auto               label = [&](std::int64_t value) {
-    const auto own = std::ranges::find(network.labels, value, &NetworkLabel::value);
+    const auto own = ranges::find(network.labels, value, &NetworkLabel::value);
     return LabelText(value, own->name);
   };
   double extent = 0;

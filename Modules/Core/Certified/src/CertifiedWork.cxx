@@ -7,6 +7,7 @@
 #include "RequestStages.h"
 #include "WholeCore.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/Stopwatch.h"
 #include "voxelcore/Complex/ComplexTopology.h"
@@ -293,7 +294,7 @@ private:
   {
     const auto isPruned = [](double threshold) { return threshold > 0; };
     return m_Request.tolerances.empty() && !Refines(m_Request) && !BurnsBeforePruning(m_Request) &&
-           std::ranges::all_of(m_Thresholds, isPruned);
+           ranges::all_of(m_Thresholds, isPruned);
   }
 
   /** Whether the whole core is asked for no more once it has burned. */

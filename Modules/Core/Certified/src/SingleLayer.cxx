@@ -1,6 +1,7 @@
 #include "SingleLayer.h"
 
 #include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <array>
@@ -88,7 +89,7 @@ HalvedLayer::Halve(CertifiedRequest request) const
 {
   const Vector3 & whole = m_Whole.spacing;
   const Vector3 & half = m_Halved.spacing;
-  const double    smallest = *std::ranges::min_element(whole) / *std::ranges::min_element(half);
+  const double    smallest = *ranges::min_element(whole) / *ranges::min_element(half);
   const double    diagonal = Length(whole) / Length(half);
   const auto      keep = [](Lambda & length, double ratio) {
     length.value *= length.unit == Lambda::Unit::Voxel ? ratio : 1;
@@ -102,7 +103,7 @@ HalvedLayer::Halve(CertifiedRequest request) const
   {
     keep(lambda, smallest);
   }
-  std::ranges::for_each(request.tolerances, keepHeight);
+  ranges::for_each(request.tolerances, keepHeight);
   SkeletonRequest & skeleton = *request.skeleton;
   keep(skeleton.lambda, smallest);
   keep(skeleton.standOut, diagonal);

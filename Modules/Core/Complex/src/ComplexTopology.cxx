@@ -1,5 +1,6 @@
 #include "voxelcore/Complex/ComplexTopology.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/Prefetch.h"
 #include "voxelcore/Base/UnionFind.h"
@@ -224,7 +225,7 @@ SecondBetti(const CellComplex & complex)
 {
   std::vector<FacesAtEdge>        cofaces = CountFacesAtEdges(complex);
   const std::vector<std::uint8_t> live = DropFreeFaces(complex, cofaces);
-  if (std::ranges::find(live, std::uint8_t{ 1 }) == live.end()) // as in most shapes without cavities
+  if (ranges::find(live, std::uint8_t{ 1 }) == live.end()) // as in most shapes without cavities
   {
     return 0;
   }

@@ -1,5 +1,7 @@
 #include "voxelcore/Complex/SoundComplex.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <functional>
 
@@ -11,11 +13,10 @@ IsComplex(const CellComplex & cells)
 {
   const auto & offsets = cells.faceOffsets;
   const bool   countsAgree = cells.HasCorners() && !offsets.empty() && offsets.front() == 0 &&
-                           offsets.back() == cells.faceVertices.size() && std::ranges::is_sorted(offsets);
+                           offsets.back() == cells.faceVertices.size() && ranges::is_sorted(offsets);
   const bool edgesAreInOrder =
-    std::ranges::all_of(cells.edges,
-                        [&](const auto & edge) { return edge[0] < edge[1] && edge[1] < cells.vertexCount; }) &&
-    std::ranges::adjacent_find(cells.edges, std::ranges::greater_equal()) == cells.edges.end();
+    ranges::all_of(cells.edges, [&](const auto & edge) { return edge[0] < edge[1] && edge[1] < cells.vertexCount; }) &&
+    ranges::adjacent_find(cells.edges, ranges::greater_equal()) == cells.edges.end();
   if (!countsAgree || !edgesAreInOrder)
   {
     return false;
@@ -34,8 +35,8 @@ IsComplex(const CellComplex & cells)
       }
     }
     sorted.assign(corners.begin(), corners.end());
-    std::ranges::sort(sorted);
-    if (corners.size() < 3 || std::ranges::adjacent_find(sorted) != sorted.end())
+    ranges::sort(sorted);
+    if (corners.size() < 3 || ranges::adjacent_find(sorted) != sorted.end())
     {
       return false;
     }

@@ -6,6 +6,7 @@
 
 #include "voxelcore/Base/BucketSort.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Predicates.h"
 
 #include <algorithm>
@@ -174,7 +175,7 @@ SortByCentre(const DelaunayCells & cells, const std::vector<LatticePoint> & poin
   std::vector<std::uint32_t> order;
   order.reserve(cells.CellCount());
   VisitByCentre(cells, points, weights, [&](CentredRun run) {
-    std::ranges::transform(run, std::back_inserter(order), &CentredCell::cell);
+    ranges::transform(run, std::back_inserter(order), &CentredCell::cell);
   });
   return order;
 }

@@ -2,6 +2,7 @@
 #include "MarkedPoints.h"
 
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/SpentMemory.h"
 
 #include <algorithm>
@@ -115,7 +116,7 @@ JoinTracings(std::vector<Tracing> parts, std::size_t points)
       {
         const std::uint32_t own = facet + facetShift;
         const auto          polygon = to.FacetPoints(own);
-        if (!std::ranges::all_of(polygon, [&](std::uint32_t point) { return several.IsMarked(point); }))
+        if (!ranges::all_of(polygon, [&](std::uint32_t point) { return several.IsMarked(point); }))
         {
           joinedFacets.push_back(own);
           continue;

@@ -1,6 +1,7 @@
 #include "VoxelSides.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/SpentMemory.h"
 
@@ -30,7 +31,7 @@ NoteBoundary(const std::vector<LatticePoint> & points, const SpacingWeights & we
       // Where all sides are alike, points need not be fetched.
       const std::size_t  axis = areAlike ? 0 : AxisAcross(points[square[0]], points[square[2]]);
       const std::uint8_t side = VoxelSide(axis, weights);
-      std::atomic_ref<std::uint8_t>(cells.voxelSides[one]).fetch_or(side, std::memory_order_relaxed);
+      atomic_ref<std::uint8_t>(cells.voxelSides[one]).fetch_or(side, std::memory_order_relaxed);
       one = kOutside;
     }
   });

@@ -3,6 +3,7 @@
 #include "VoxelCells.h"
 
 #include "voxelcore/Base/CountBits.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 
@@ -181,7 +182,7 @@ CellTracer::SeedSquare(std::int32_t x, std::int32_t y, std::int32_t z, unsigned 
   {
     if (facet.side == side)
     {
-      std::ranges::transform(facet.corners, square.begin(), [&](std::uint8_t c) {
+      ranges::transform(facet.corners, square.begin(), [&](std::uint8_t c) {
         return m_Window.IndexOf(x + (c & 1), y + ((c >> 1) & 1), z + (c >> 2));
       });
     }

@@ -291,7 +291,7 @@ RefinementState::TakeBackAtRims(const FootPointFinder & finder, CorePart & part,
     const FacesAt     facesAt = [&](ElementIndex vertex) {
       const auto from = std::lower_bound(rims.begin(), rims.end(), std::pair{ vertex, ElementIndex{ 0 } });
       const auto to = std::find_if(from, rims.end(), [&](const auto & one) { return one.first != vertex; });
-      return std::span<const std::pair<ElementIndex, ElementIndex>>(from, to);
+      return std::span(rims.data() + (from - rims.begin()), static_cast<std::size_t>(to - from));
     };
     std::vector<Lost> lost;
     for (ElementIndex face = 0; face < m_Cells.FaceCount(); ++face)

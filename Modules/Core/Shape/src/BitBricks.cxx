@@ -1,5 +1,7 @@
 #include "voxelcore/Shape/BitBricks.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -108,7 +110,7 @@ BitBricks::NewBrick()
     // As much again as there is, so that small shapes stay small. Where there is no memory, all stays as it was: other
     // threads may ask for more before they hear of it.
     const std::size_t size = std::clamp<std::size_t>(2 * m_ChunkSize, 1, greatestChunk);
-    m_Chunks.push_back(std::make_unique_for_overwrite<Brick[]>(size));
+    m_Chunks.push_back(make_unique_for_overwrite<Brick[]>(size));
     m_ChunkSize = size;
     m_ChunkUsed = 0;
   }
@@ -126,7 +128,7 @@ BitBricks::MakeOwn(const Word *& brick)
   }
   Word * const own = NewBrick();
   std::copy_n(before, words, own);
-  std::atomic_ref<const Word *>(brick).store(own, std::memory_order_release);
+  atomic_ref<const Word *>(brick).store(own, std::memory_order_release);
   return own;
 }
 

@@ -1,5 +1,6 @@
 #include "voxelcore/Shape/PartTopology.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 
 #include "voxelcore/Base/CountBits.h"
@@ -305,7 +306,7 @@ CountJoined(std::span<const TopologyPart> parts, bool isBackground)
   UnionFind sets(count);
   for (auto & [key, runs] : planes)
   {
-    std::ranges::sort(runs, [](const JoinRun & a, const JoinRun & b) {
+    ranges::sort(runs, [](const JoinRun & a, const JoinRun & b) {
       return std::tie(a.row, a.begin) < std::tie(b.row, b.begin);
     });
   }

@@ -2,6 +2,7 @@
 
 #include "ContactPlaces.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/GrowingPieces.h"
 #include "voxelcore/Shape/PaddedShape.h"
 #include "voxelcore/Shape/TouchingPieces.h"
@@ -113,7 +114,7 @@ TurningOf(const VoxelShape & shape, const std::vector<Voxel> & contacts)
   std::vector<std::pair<std::array<const Profile *, 3>, GridTurning>> turnings;
   do
   {
-    if (!std::ranges::is_sorted(axes, std::greater(), [&](std::size_t axis) -> const Profile & { return best[axis]; }))
+    if (!ranges::is_sorted(axes, std::greater(), [&](std::size_t axis) -> const Profile & { return best[axis]; }))
     {
       continue;
     }
@@ -131,7 +132,7 @@ TurningOf(const VoxelShape & shape, const std::vector<Voxel> & contacts)
         turnings.push_back({ {}, turning });
       }
     }
-  } while (std::ranges::next_permutation(axes).found);
+  } while (ranges::next_permutation(axes).found);
   if (turnings.size() == 1)
   {
     return turnings.front().second;
@@ -229,10 +230,10 @@ private:
     Voxel turned;
     Voxel at;
 
-    friend auto
-    operator<=>(const Place & a, const Place & b)
+    friend bool
+    operator<(const Place & a, const Place & b)
     {
-      return a.turned <=> b.turned;
+      return a.turned < b.turned;
     }
     friend bool
     operator==(const Place & a, const Place & b)
@@ -369,7 +370,7 @@ Connecting::FlipsAt(const Voxel & corner, bool removes, std::int32_t reach)
     flip.place = { m_Turning(at), at };
     flips.push_back(flip);
   }
-  std::ranges::sort(flips, [](const Flip & a, const Flip & b) {
+  ranges::sort(flips, [](const Flip & a, const Flip & b) {
     return std::tuple(-a.gain, !a.isFill, -a.around, a.place) < std::tuple(-b.gain, !b.isFill, -b.around, b.place);
   });
   return flips;
@@ -397,7 +398,7 @@ Connecting::Do(const Voxel & at)
       changes.push_back({ key, (after >> corner & 1U) != 0 });
     }
   }
-  std::ranges::sort(changes); // the list, from which the walk draws, turns with the grid
+  ranges::sort(changes); // the list, from which the walk draws, turns with the grid
   for (const auto & [key, isBad] : changes)
   {
     isBad ? Add(key) : Remove(key);
@@ -489,14 +490,14 @@ Connecting::Settle(const ProgressCallback & progress)
   {
     moves = false;
     std::vector<Place> places = m_Bad;
-    std::ranges::sort(places);
+    std::sort(places.begin(), places.end());
     for (const Place & place : places)
     {
       moves = (IsBad(place.at) && StepAt(place)) || moves;
     }
     ReportProgress(progress, "", 0.5);
   }
-  std::ranges::sort(m_Bad);
+  std::sort(m_Bad.begin(), m_Bad.end());
   for (std::size_t i = 0; i < m_Bad.size(); ++i)
   {
     m_Where[m_Bad[i].at] = i;
@@ -515,7 +516,7 @@ Connecting::TakeBack()
   for (bool moves = true; moves;)
   {
     moves = false;
-    std::ranges::sort(changed);
+    ranges::sort(changed);
     std::erase_if(changed, [&](const auto & item) {
       const Voxel & at = item.second.at;
       if (!m_Simple.IsSimple(m_Shape.Around(at)))
@@ -547,7 +548,7 @@ Connecting::Release(const VoxelBox & box) &&
     }
     result.left.push_back(corner);
   }
-  std::ranges::sort(result.left, {}, [](const Voxel & at) { return Voxel{ at[2], at[1], at[0] }; });
+  ranges::sort(result.left, {}, [](const Voxel & at) { return Voxel{ at[2], at[1], at[0] }; });
   result.shape = std::move(m_Shape).Release();
   return result;
 }
@@ -604,9 +605,8 @@ private:
   bool
   Touch(const std::vector<std::uint32_t> & pieces)
   {
-    return std::ranges::all_of(pieces, [&](std::uint32_t one) {
-      return m_Touching.Find(one) == m_Touching.Find(pieces.front());
-    });
+    return ranges::all_of(pieces,
+                          [&](std::uint32_t one) { return m_Touching.Find(one) == m_Touching.Find(pieces.front()); });
   }
 
   /** How many pieces a voxel put in makes one; 0 where it makes none one, or changes anything else. */
@@ -726,7 +726,7 @@ private:
   bool
   JoinBest(std::vector<Joint> joints)
   {
-    std::ranges::sort(joints, [](const Joint & a, const Joint & b) {
+    ranges::sort(joints, [](const Joint & a, const Joint & b) {
       return std::tuple(-a.joined, -a.around, a.turned) < std::tuple(-b.joined, -b.around, b.turned);
     });
     bool moves = false;

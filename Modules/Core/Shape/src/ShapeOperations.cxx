@@ -1,5 +1,6 @@
 #include "voxelcore/Shape/ShapeOperations.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeBits.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 
@@ -217,7 +218,7 @@ ComponentSizes(const VoxelShape & shape)
 {
   const Components           components = FindComponents(VoxelRuns(shape), false);
   std::vector<std::uint64_t> sizes(components.voxels.begin(), components.voxels.end());
-  std::ranges::sort(sizes, std::greater());
+  ranges::sort(sizes, std::greater());
   return sizes;
 }
 

@@ -1,6 +1,7 @@
 #include "voxelcore/Skeleton/BorderCut.h"
 
 #include "GraphLines.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
@@ -183,7 +184,7 @@ private:
       const double away = Distance(Times(lattice, m_Geometry.spacing), Times(inPlane(section), m_Geometry.spacing));
       return std::pair(!section.isCut, away);
     };
-    const BorderSection & nearest = *std::ranges::min_element(sections, {}, key);
+    const BorderSection & nearest = *ranges::min_element(sections, {}, key);
     return ContainsInside(voxels, inPlane(nearest)) ? inPlane(nearest) : nearest.centre;
   }
 
@@ -207,7 +208,7 @@ private:
       return false;
     };
     const auto component =
-      std::ranges::find_if(components, [&](const VoxelShape & one) { return holds(one, section.centre); });
+      ranges::find_if(components, [&](const VoxelShape & one) { return holds(one, section.centre); });
     const Vector3 centre = LatticeToPhysical(m_Geometry, section.centre);
     ElementIndex  nearest = 0;
     bool          isWithin = false;

@@ -2,6 +2,7 @@
 
 #include "BoundaryShares.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/DomeBranches.h"
 
 #include <algorithm>
@@ -141,7 +142,7 @@ private:
         std::vector<ElementIndex> back(points.rbegin(), points.rend());
         std::vector<ElementIndex> beyond;
         AddBeyondTip(branch, 0, back, beyond);
-        std::ranges::reverse(beyond);
+        ranges::reverse(beyond);
         m_Graph.branchPoints.insert(m_Graph.branchPoints.end(), beyond.begin(), beyond.end());
         for (std::size_t i = 0; i + 1 < points.size(); ++i)
         {

@@ -4,6 +4,7 @@
 #include "StandingOut.h"
 
 #include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <cmath>
@@ -140,7 +141,7 @@ StandingBranches(const MedialComplex &       surface,
     EndSearch  search(surface, fire, surfaceTime, scale, branch);
     const bool standsOut = candidate.standOut >= standOut;
     const auto standsOutOfAll = [&](const Vector3 & place, double radius, double least) {
-      return std::ranges::none_of(fire.order, [&](ElementIndex vertex) {
+      return ranges::none_of(fire.order, [&](ElementIndex vertex) {
         return all[branchOf[vertex]].standOut > candidate.standOut &&
                Distance(place, surface.positions[vertex]) + radius - surface.radius[vertex] < least;
       });
@@ -197,7 +198,7 @@ StandingBranches(const MedialComplex &       surface,
         branch.path = PathOf(number, all, surface.cells, fire, branchOf);
         branch.end = branch.path.size() - 1;
       }
-      const auto at = std::ranges::find(branch.path, from);
+      const auto at = ranges::find(branch.path, from);
       places.insert(places.end(), at, branch.path.end());
       if (from == *ball)
       {

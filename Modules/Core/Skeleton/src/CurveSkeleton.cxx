@@ -5,6 +5,7 @@
 #include "PartOfCurves.h"
 #include "SurfaceCollapse.h"
 #include "TurnedSurface.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Lattice/Vectors.h"
@@ -193,7 +194,7 @@ BurnTurned(TurnedSurface &              turned,
   // Back to the surface as it was.
   std::vector<double>().swap(times.edges);
   std::vector<double>().swap(times.faces);
-  std::vector<std::uint8_t> closedBefore(turned.faces.empty() ? 0 : 1 + *std::ranges::max_element(turned.faces), 0);
+  std::vector<std::uint8_t> closedBefore(turned.faces.empty() ? 0 : 1 + *ranges::max_element(turned.faces), 0);
   for (std::size_t i = 0; i < turned.faces.size(); ++i)
   {
     closedBefore[turned.faces[i]] = closed[i];
@@ -216,7 +217,7 @@ BurnTurned(TurnedSurface &              turned,
   {
     const EndPlace there{ turned.vertices[end.vertex], turned.vertices[end.beyond], end.part };
     const auto &   left = skeleton.inSurface.vertices;
-    const auto     at = std::ranges::lower_bound(left, there.vertex);
+    const auto     at = ranges::lower_bound(left, there.vertex);
     if (at != left.end() && *at == there.vertex)
     {
       skeleton.places[static_cast<std::size_t>(at - left.begin())] = PlaceOf(there, positions);

@@ -1,6 +1,7 @@
 #include "voxelcore/Skeleton/DomeBranches.h"
 
 #include "GraphLines.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
@@ -84,20 +85,18 @@ public:
         }
       }
     }
-    std::ranges::stable_sort(domes, std::ranges::greater(), [&](const Dome & dome) {
-      return Radius(line, dome.greatest);
-    });
+    ranges::stable_sort(domes, ranges::greater(), [&](const Dome & dome) { return Radius(line, dome.greatest); });
     std::vector<Dome> apart;
     for (const Dome & dome : domes)
     {
-      if (std::ranges::none_of(apart, [&](const Dome & other) {
+      if (ranges::none_of(apart, [&](const Dome & other) {
             return dome.before <= other.behind && other.before <= dome.behind;
           }))
       {
         apart.push_back(dome);
       }
     }
-    std::ranges::sort(apart, {}, &Dome::before);
+    ranges::sort(apart, {}, &Dome::before);
     return apart;
   }
 
@@ -287,7 +286,7 @@ public:
   bool
   Straighten(std::vector<DomeArm> arms)
   {
-    std::ranges::stable_sort(arms, std::ranges::greater(), [&](const DomeArm & arm) {
+    ranges::stable_sort(arms, ranges::greater(), [&](const DomeArm & arm) {
       return arm.endsInTip ? BallAt(arm, arm.greatest) : 0.0;
     });
     const DomeArm & dome = arms[0];
@@ -423,7 +422,7 @@ DomesOf(const SkeletonGraph & graph)
       }
       const ElementIndex base = graph.nodePoints[node];
       const ElementIndex greatest =
-        *std::ranges::max_element(graph.Branch(branch), {}, [&](ElementIndex point) { return graph.radius[point]; });
+        *ranges::max_element(graph.Branch(branch), {}, [&](ElementIndex point) { return graph.radius[point]; });
       const Vector3 & middle = graph.positions[greatest];
       const double    radius = graph.radius[greatest];
       if (IsDomeBeside(radius, graph.radius[base], Distance(middle, graph.positions[base])) &&
@@ -455,7 +454,7 @@ StraightenPastDomes(SkeletonGraph & graph, const OpenShape & inside)
                    graph.nodeKinds[graph.branchNodes[branch][1 - end]] == NodeKind::Tip };
       if (end == 1)
       {
-        std::ranges::reverse(arm.points);
+        ranges::reverse(arm.points);
       }
       for (std::size_t i = 1; i < arm.points.size(); ++i)
       {

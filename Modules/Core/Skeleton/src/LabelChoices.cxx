@@ -1,6 +1,7 @@
 #include "LabelChoices.h"
 
 #include "voxelcore/Base/UnionFind.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
@@ -245,7 +246,7 @@ private:
 double
 ShareOf(const std::vector<LabelShare> & shares, std::uint32_t label)
 {
-  const auto found = std::ranges::find(shares, label, &LabelShare::label);
+  const auto found = ranges::find(shares, label, &LabelShare::label);
   return found == shares.end() ? 0 : found->share;
 }
 
@@ -300,7 +301,7 @@ FindLabelShares(const SkeletonGraph & graph, const std::vector<LabelShape> & lab
               continue;
             }
             const auto owner =
-              std::ranges::find_if(near, [&](std::uint32_t label) { return labels[label].shape.Contains(x, y, z); });
+              ranges::find_if(near, [&](std::uint32_t label) { return labels[label].shape.Contains(x, y, z); });
             if (owner != near.end())
             {
               ++counts[static_cast<std::size_t>(owner - near.begin())];

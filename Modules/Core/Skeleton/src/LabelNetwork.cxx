@@ -2,6 +2,7 @@
 
 #include "GraphLines.h"
 #include "LabelChoices.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Skeleton/OpenShape.h"
 
@@ -320,7 +321,7 @@ private:
   static std::optional<LabelledLines>
   Brought(const LabelledLines & from, ElementIndex junction, const std::vector<LineEnd> & ends)
   {
-    if (std::ranges::none_of(ends, [&](const LineEnd & end) { return LastChange(from, junction, end) > 0; }))
+    if (ranges::none_of(ends, [&](const LineEnd & end) { return LastChange(from, junction, end) > 0; }))
     {
       return std::nullopt;
     }

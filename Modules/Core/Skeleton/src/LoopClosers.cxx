@@ -1,5 +1,6 @@
 #include "voxelcore/Skeleton/LoopClosers.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/UnionFind.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ FindLoopClosers(const SkeletonGraph &             graph,
 {
   std::vector<ElementIndex> thickFirst(graph.BranchCount());
   std::iota(thickFirst.begin(), thickFirst.end(), 0U);
-  std::ranges::stable_sort(thickFirst, std::ranges::greater(), [&](ElementIndex branch) { return thickness[branch]; });
+  ranges::stable_sort(thickFirst, ranges::greater(), [&](ElementIndex branch) { return thickness[branch]; });
   UnionFind                 trees(nodeOf.size());
   std::vector<std::uint8_t> closes(graph.BranchCount(), 0);
   for (const ElementIndex branch : thickFirst)

@@ -1,5 +1,7 @@
 #include "voxelcore/Skeleton/SomaTree.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include "GraphLines.h"
 
 #include <algorithm>
@@ -64,7 +66,7 @@ public:
     SortBranches(m_Tree.graph, m_Lines, false);
     const auto & nodes = m_Tree.graph.nodePoints;
     const auto   root =
-      std::ranges::find_if(nodes, [&](ElementIndex point) { return m_Tree.graph.positions[point] == m_Soma.centre; });
+      ranges::find_if(nodes, [&](ElementIndex point) { return m_Tree.graph.positions[point] == m_Soma.centre; });
     m_Tree.root = static_cast<std::size_t>(root - nodes.begin());
     return std::move(m_Tree);
   }
@@ -174,7 +176,7 @@ private:
     {
       const std::span<const ElementIndex> own(graph.faceVertices.data() + graph.faceOffsets[face],
                                               graph.faceVertices.data() + graph.faceOffsets[face + 1]);
-      if (std::ranges::none_of(own, [&](ElementIndex point) { return IsIn(point); }))
+      if (ranges::none_of(own, [&](ElementIndex point) { return IsIn(point); }))
       {
         vertices.insert(vertices.end(), own.begin(), own.end());
         offsets.push_back(vertices.size());

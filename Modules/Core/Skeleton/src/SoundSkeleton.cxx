@@ -1,5 +1,6 @@
 #include "voxelcore/Skeleton/SoundSkeleton.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
@@ -14,19 +15,18 @@ IsSkeleton(const SkeletonGraph & graph)
   const std::size_t points = graph.positions.size();
   const std::size_t nodes = graph.nodePoints.size();
   const auto        areBelow = [](const std::vector<ElementIndex> & indices, std::size_t count) {
-    return std::ranges::all_of(indices, [&](ElementIndex index) { return index < count; });
+    return ranges::all_of(indices, [&](ElementIndex index) { return index < count; });
   };
   const auto areOffsets = [](const std::vector<std::uint64_t> & offsets, std::size_t count, std::size_t all) {
-    return offsets.size() == count + 1 && offsets.front() == 0 && offsets.back() == all &&
-           std::ranges::is_sorted(offsets);
+    return offsets.size() == count + 1 && offsets.front() == 0 && offsets.back() == all && ranges::is_sorted(offsets);
   };
   const auto arePlaces = [](const std::vector<Vector3> & places) {
-    return std::ranges::all_of(places, [](const Vector3 & p) {
+    return ranges::all_of(places, [](const Vector3 & p) {
       return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
     });
   };
   const auto areLengths = [](const std::vector<double> & values) {
-    return std::ranges::all_of(values, [](double value) { return value >= 0 && std::isfinite(value); });
+    return ranges::all_of(values, [](double value) { return value >= 0 && std::isfinite(value); });
   };
   const bool pointsFit = graph.radius.size() == points && graph.erosionThickness.size() == points &&
                          (graph.medial.empty() || graph.medial.size() == points) &&
@@ -34,12 +34,12 @@ IsSkeleton(const SkeletonGraph & graph)
                          (graph.labels.empty() || graph.labels.size() == points) &&
                          graph.contact.size() == graph.labels.size() && arePlaces(graph.positions) &&
                          arePlaces(graph.medial) && areLengths(graph.radius) && areLengths(graph.sectionRadius) &&
-                         std::ranges::all_of(graph.erosionThickness, [](double value) { return value >= 0; });
+                         ranges::all_of(graph.erosionThickness, [](double value) { return value >= 0; });
   const bool nodesFit = graph.nodeKinds.size() == nodes && areBelow(graph.nodePoints, points) &&
-                        std::ranges::all_of(graph.nodeKinds, [](NodeKind kind) { return kind <= NodeKind::Contact; });
+                        ranges::all_of(graph.nodeKinds, [](NodeKind kind) { return kind <= NodeKind::Contact; });
   const bool facesFit = areOffsets(graph.faceOffsets, graph.closedFace.size(), graph.faceVertices.size()) &&
                         areBelow(graph.faceVertices, points) &&
-                        std::ranges::all_of(graph.closedFace, [](std::uint8_t closed) { return closed <= 1; });
+                        ranges::all_of(graph.closedFace, [](std::uint8_t closed) { return closed <= 1; });
   if (!pointsFit || !nodesFit || !facesFit ||
       !areOffsets(graph.branchOffsets, graph.BranchCount(), graph.branchPoints.size()) ||
       !areBelow(graph.branchPoints, points))

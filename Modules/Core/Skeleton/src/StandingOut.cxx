@@ -1,6 +1,7 @@
 #include "StandingOut.h"
 
 #include "voxelcore/VoxelCore/BallTree.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/DomeBranches.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
 #include "voxelcore/Lattice/Vectors.h"
@@ -108,14 +109,13 @@ StandingOut::StandingOut(const MedialComplex &             surface,
     }
   }
   const BallTree balls(centres, radii, inMm);
-  std::ranges::sort(places, std::ranges::greater(), [&](ElementIndex place) { return surface.radius[place]; });
+  ranges::sort(places, ranges::greater(), [&](ElementIndex place) { return surface.radius[place]; });
   for (const ElementIndex vertex : domes)
   {
     const Vector3 & middle = surface.positions[vertex];
     const double    radius = surface.radius[vertex];
     const auto      begin = places.begin();
-    const auto      smaller =
-      std::ranges::partition_point(places, [&](ElementIndex place) { return !IsGreater(vertex, place); });
+    const auto smaller = ranges::partition_point(places, [&](ElementIndex place) { return !IsGreater(vertex, place); });
     if (reaches.Gap(middle) + radius > m_Noise &&
         balls.Gap(middle) + radius > std::max(standOut, kDomeOfRadius * radius) &&
         std::none_of(begin, smaller, [&](ElementIndex place) { return HoldsDome(place, vertex); }))
@@ -132,7 +132,7 @@ StandingOut::Worst() const
   {
     return std::nullopt;
   }
-  return std::ranges::max_element(m_Out, {}, &Ball::beyondCorner)->vertex;
+  return ranges::max_element(m_Out, {}, &Ball::beyondCorner)->vertex;
 }
 
 void
@@ -141,7 +141,7 @@ StandingOut::Add(const std::vector<ElementIndex> & places)
   std::vector<Ball> still;
   for (Ball ball : m_Out)
   {
-    if (std::ranges::any_of(places, [&](ElementIndex place) {
+    if (ranges::any_of(places, [&](ElementIndex place) {
           return ball.isDome ? HoldsDome(place, ball.vertex) : Holds(place, ball.vertex);
         }))
     {

@@ -1,6 +1,7 @@
 #include "SurfaceFire.h"
 
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <numeric>
@@ -22,7 +23,7 @@ SurfaceFire::SurfaceFire(const MedialComplex & complex, double sampling)
   , m_Cells(complex.cells)
   , m_Network(complex, sampling)
   , m_Window(kWindow * sampling)
-  , m_Times(std::make_unique_for_overwrite<double[]>(m_Network.SectorCount()))
+  , m_Times(make_unique_for_overwrite<double[]>(m_Network.SectorCount()))
 {
   const std::size_t sectors = m_Network.SectorCount();
   RunInParts(sectors > 10000, sectors, [&](std::size_t first, std::size_t last) {

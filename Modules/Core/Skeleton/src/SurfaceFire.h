@@ -4,6 +4,7 @@
 #include "BurnNetwork.h"
 
 #include "voxelcore/Base/CountBits.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Skeleton/ErosionThickness.h"
 
@@ -128,13 +129,13 @@ private:
   double
   Time(std::uint32_t sector) const
   {
-    return std::atomic_ref(const_cast<double &>(m_Times[sector])).load(std::memory_order_relaxed);
+    return atomic_ref(const_cast<double &>(m_Times[sector])).load(std::memory_order_relaxed);
   }
 
   void
   SetTime(std::uint32_t sector, double time)
   {
-    std::atomic_ref(m_Times[sector]).store(time, std::memory_order_relaxed);
+    atomic_ref(m_Times[sector]).store(time, std::memory_order_relaxed);
   }
 
   static bool

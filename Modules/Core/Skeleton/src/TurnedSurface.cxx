@@ -2,6 +2,7 @@
 
 #include "voxelcore/Base/BucketSort.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/Prefetch.h"
 #include "voxelcore/Complex/FaceName.h"
@@ -118,7 +119,7 @@ NamesOf(const Places &                    places,
     for (std::size_t i = first; i < last; ++i)
     {
       const ElementIndex                          vertex = vertices[i];
-      const std::uint64_t                         h = std::bit_cast<std::uint64_t>(radius[vertex]);
+      const std::uint64_t                         h = bit_cast<std::uint64_t>(radius[vertex]);
       std::array<std::uint64_t, 6>                steps; // per axis: forwards, backwards
       std::array<std::array<std::uint64_t, 6>, 6> two;   // of the first two axes
       for (std::size_t axis = 0; axis < 3; ++axis)

@@ -1,5 +1,7 @@
 #include "BallBoxes.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -101,7 +103,7 @@ AlongACurve(const std::vector<std::array<double, 3>> & places)
     keys.swap(sorted);
   }
   std::vector<std::uint32_t> order(keys.size());
-  std::ranges::transform(keys, order.begin(), [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+  ranges::transform(keys, order.begin(), [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
   return order;
 }
 
@@ -124,7 +126,7 @@ BallBoxes::BallBoxes(std::span<const std::array<double, 3>> positions,
     m_Scale[a] = weights.unit * static_cast<double>(weights.weight[a]);
   }
   std::vector<std::array<double, 3>> places(positions.size());
-  std::ranges::transform(positions, places.begin(), [&](const auto & position) { return InMm(position); });
+  ranges::transform(positions, places.begin(), [&](const auto & position) { return InMm(position); });
   const std::vector<std::uint32_t> order = AlongACurve(places);
   m_Balls.resize((order.size() + kInABox - 1) / kInABox);
   for (std::size_t i = 0; i < kInABox * m_Balls.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include "BallBoxes.h"
 #include "BoundaryNormals.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Verification/OctantScan.h"
 
@@ -182,7 +183,7 @@ LargestBoundaryGaps(const VoxelShape &                     shape,
 {
   BoundaryGaps gaps;
   gaps.plain = LargestBoundaryGap(shape, weights, positions, radius);
-  const auto [least, largest] = std::ranges::minmax(weights.weight);
+  const auto [least, largest] = ranges::minmax(weights.weight);
   gaps.weighed = least == largest ? BoundaryGap{ std::max(gaps.plain.largest - beyond, 0.0), gaps.plain.place }
                                   : LargestWeighedGap(shape, weights, positions, radius, beyond);
   return gaps;

@@ -1,5 +1,7 @@
 #include "BoundaryNormals.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -32,7 +34,7 @@ BoundaryNormals::BoundaryNormals(const VoxelShape & shape, const SpacingWeights 
     m_Sides[axis] = static_cast<double>(side);
   }
   m_Diagonal = std::hypot(m_Sides[0], m_Sides[1], m_Sides[2]);
-  m_Least = std::sqrt(3.0) * *std::ranges::min_element(m_Sides);
+  m_Least = std::sqrt(3.0) * *ranges::min_element(m_Sides);
   m_Largest = std::max(1.0, m_Diagonal / m_Least);
 }
 

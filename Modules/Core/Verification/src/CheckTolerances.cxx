@@ -1,6 +1,7 @@
 #include "Checks.h"
 
 #include "voxelcore/Verification/BallCoverage.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,7 @@ CheckCoverage(VerificationReport &      report,
   {
     return;
   }
-  const auto [least, largest] = std::ranges::minmax(weights.weight);
+  const auto [least, largest] = ranges::minmax(weights.weight);
   if (least != largest && promised.weighed > 0)
   {
     report.boundaryGapShare = gaps.weighed.largest / promised.weighed;

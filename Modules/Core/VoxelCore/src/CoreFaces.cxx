@@ -3,6 +3,7 @@
 #include "FoundFaces.h"
 
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/SpentMemory.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ PlaceFaces(std::vector<FoundFace> found, std::size_t vertexCount)
   {
     start[vertex] += start[vertex - 1];
   }
-  placed.faces = std::make_unique_for_overwrite<PlacedFace[]>(count);
+  placed.faces = make_unique_for_overwrite<PlacedFace[]>(count);
   SpentFront    spent(found);
   std::uint64_t firstTurn = 0;
   for (std::size_t step = 0; step < kSteps; ++step)

@@ -2,6 +2,8 @@
 
 #include "LooseEnds.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -116,8 +118,8 @@ LooseEnds::CollectKeepers(ElementIndex vertex, ElementIndex other)
       add(at);
     }
   }
-  std::ranges::for_each(neighboursOf(vertex), add);
-  std::ranges::for_each(neighboursOf(other), add);
+  ranges::for_each(neighboursOf(vertex), add);
+  ranges::for_each(neighboursOf(other), add);
 }
 
 double
@@ -252,7 +254,7 @@ LooseEnds::SearchAround(ElementIndex vertex, const WeighedPlace & place, Home & 
   m_Around.assign(1, { 0, m_Heir });
   for (std::size_t count = 1; count < kAround && !m_Around.empty() && home.gap > m_Height;)
   {
-    std::ranges::pop_heap(m_Around, isFarther);
+    ranges::pop_heap(m_Around, isFarther);
     const ElementIndex centre = m_Around.back().vertex;
     m_Around.pop_back();
     const std::uint32_t end = m_FirstNeighbour[centre + 1];
@@ -265,7 +267,7 @@ LooseEnds::SearchAround(ElementIndex vertex, const WeighedPlace & place, Home & 
         m_Candidates.AddIf(other, m_Balls[other].seen != m_Look - 1);
         m_Balls[other].seen = m_Look;
         m_Around.push_back({ OfferHome(home, place, other), other });
-        std::ranges::push_heap(m_Around, isFarther);
+        ranges::push_heap(m_Around, isFarther);
         ++count;
       }
     }

@@ -4,6 +4,7 @@
 
 #include "voxelcore/Base/BucketSort.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/Prefetch.h"
 #include "voxelcore/Delaunay/CanonicalCells.h"
@@ -199,8 +200,8 @@ LiesBeyond(const Plane &          plane,
 void
 RaiseTo(double & value, double to)
 {
-  std::atomic_ref<double> atomic(value);
-  double                  old = atomic.load(std::memory_order_relaxed);
+  atomic_ref<double> atomic(value);
+  double             old = atomic.load(std::memory_order_relaxed);
   while (old < to && !atomic.compare_exchange_weak(old, to, std::memory_order_relaxed))
   {}
 }
@@ -228,7 +229,7 @@ template <typename TLiesBeyond>
 void
 NoteCentreBeyond(std::uint8_t & note, const TLiesBeyond & liesBeyond)
 {
-  std::atomic_ref<std::uint8_t> atomic(note);
+  atomic_ref<std::uint8_t> atomic(note);
   if ((atomic.load(std::memory_order_relaxed) & kCentreBeyond) == 0 && liesBeyond())
   {
     atomic.fetch_or(kCentreBeyond, std::memory_order_relaxed);

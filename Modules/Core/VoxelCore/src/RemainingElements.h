@@ -1,6 +1,7 @@
 #pragma once
 // Whether an element is still there, and what is asked of it meanwhile and afterwards.
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Complex/CellComplex.h"
 
@@ -41,7 +42,7 @@ public:
   void
   Go(double height)
   {
-    m_Word = std::bit_cast<std::uint64_t>(height);
+    m_Word = bit_cast<std::uint64_t>(height);
   }
   bool
   IsLive() const
@@ -76,7 +77,7 @@ public:
   double
   Height() const
   {
-    return std::bit_cast<double>(m_Word);
+    return bit_cast<double>(m_Word);
   }
 
 private:

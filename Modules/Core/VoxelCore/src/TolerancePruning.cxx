@@ -1,6 +1,7 @@
 #include "voxelcore/VoxelCore/TolerancePruning.h"
 
 #include "voxelcore/Base/LengthText.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Delaunay/CanonicalCells.h"
 #include "voxelcore/VoxelCore/ExtractPart.h"
 #include "voxelcore/VoxelCore/ToleranceWeights.h"
@@ -107,7 +108,7 @@ ListTouched(const DelaunayCells & cells, TouchingBalls & balls)
           const auto points = cells.FacetPoints(facets[i]);
           corners.insert(corners.end(), points.begin(), points.end());
         }
-        std::ranges::sort(corners);
+        ranges::sort(corners);
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
         use(cell, corners);
       }
@@ -120,7 +121,7 @@ ListTouched(const DelaunayCells & cells, TouchingBalls & balls)
   std::partial_sum(balls.offsets.begin(), balls.offsets.end(), balls.offsets.begin());
   balls.touched.resize(balls.offsets.back());
   forCells([&](std::size_t cell, const std::vector<std::uint32_t> & corners) {
-    std::ranges::copy(corners, balls.touched.begin() + balls.offsets[cell]);
+    ranges::copy(corners, balls.touched.begin() + balls.offsets[cell]);
   });
 }
 
@@ -205,8 +206,8 @@ LargestTouchingBalls(const VoxelShape &                shape,
     return than == kOutside || squared[cell] > squared[than] || (squared[cell] == squared[than] && cell < than);
   };
   const auto offer = [&](ElementIndex cell, std::uint32_t point) {
-    const std::atomic_ref largest(balls.largest[point]); // what is largest does not depend on who comes first
-    ElementIndex          old = largest.load(std::memory_order_relaxed);
+    const atomic_ref largest(balls.largest[point]); // what is largest does not depend on who comes first
+    ElementIndex     old = largest.load(std::memory_order_relaxed);
     while (isLarger(cell, old) && !largest.compare_exchange_weak(old, cell, std::memory_order_relaxed))
     {}
   };
@@ -216,7 +217,7 @@ LargestTouchingBalls(const VoxelShape &                shape,
       // Of its two balls the larger one is enough.
       const auto [one, other] = cells.facetCells[facet];
       const ElementIndex larger = other == kOutside || isLarger(one, other) ? one : other;
-      std::ranges::for_each(cells.FacetPoints(facet), [&](std::uint32_t point) { offer(larger, point); });
+      ranges::for_each(cells.FacetPoints(facet), [&](std::uint32_t point) { offer(larger, point); });
     }
   });
   if (!balls.weights.empty())

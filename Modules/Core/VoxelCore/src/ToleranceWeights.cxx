@@ -1,5 +1,6 @@
 #include "voxelcore/VoxelCore/ToleranceWeights.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Lattice/Vectors.h"
 
@@ -188,7 +189,7 @@ WeightOf(const std::array<std::int64_t, 3> & gradient, const std::array<double, 
 std::vector<double>
 ToleranceWeights(const VoxelShape & shape, const SpacingWeights & weights, const std::vector<LatticePoint> & points)
 {
-  const auto [least, largest] = std::ranges::minmax(weights.weight);
+  const auto [least, largest] = ranges::minmax(weights.weight);
   if (least == largest)
   {
     return {};

@@ -1,5 +1,7 @@
 #include "LegacyPolyData.h"
 
+#include "voxelcore/Base/Library.h"
+
 namespace voxelcore
 {
 namespace
@@ -25,7 +27,7 @@ Decoded(std::string_view text)
   {
     unsigned           value = 0;
     const char * const begin = text.data() + at + 1;
-    if (text[at] == '%' && at + 2 < text.size() && std::from_chars(begin, begin + 2, value, 16).ptr == begin + 2)
+    if (text[at] == '%' && at + 2 < text.size() && from_chars(begin, begin + 2, value, 16).ptr == begin + 2)
     {
       decoded.push_back(static_cast<char>(value));
       at += 2;

@@ -2,6 +2,7 @@
 // Numbers of VTK's files: of any type, as text or as bytes of either order.
 
 #include "MeshText.h"
+#include "voxelcore/Base/Library.h"
 
 #include <array>
 #include <bit>
@@ -32,8 +33,8 @@ LoadNumber(const char * bytes, NumberType type, bool isBigEndian, bool finite = 
   }
   if (type.kind == 'f')
   {
-    const double real = type.bytes == 4 ? static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)))
-                                        : std::bit_cast<double>(bits);
+    const double real =
+      type.bytes == 4 ? static_cast<double>(bit_cast<float>(static_cast<std::uint32_t>(bits))) : bit_cast<double>(bits);
     RequireFit(std::floating_point<Value>, "an index is not stored as a whole number");
     RequireFit(!finite || std::isfinite(real), "a coordinate is not a finite number");
     return static_cast<Value>(real);
@@ -57,7 +58,7 @@ ParseNumber(std::string_view word, NumberType type, bool finite = true)
   const auto fail = [&] { throw UnfitFile{ "'" + MeshText::Shown(word) + "' where a number is expected" }; };
   const auto parse = [&](auto value) {
     word.remove_prefix(word.starts_with('+') ? 1 : 0);
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size() || word.empty())
     {
       fail();

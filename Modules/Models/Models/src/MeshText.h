@@ -3,6 +3,7 @@
 // precision and take a file that is cut off for a whole one.
 
 #include "VtpFile.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/ReadMesh.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ public:
     std::string_view word = Word();
     word.remove_prefix(word.starts_with('+') ? 1 : 0);
     double value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     // Too small to be told from 0 is 0.
     const bool isTiny = error == std::errc::result_out_of_range && word.find("e-") != std::string_view::npos;
     Require((error == std::errc() || isTiny) && end == word.data() + word.size() && std::isfinite(value),
@@ -87,7 +88,7 @@ public:
   Whole(std::string_view word)
   {
     std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     Require(error == std::errc() && end == word.data() + word.size(),
             "'" + Shown(word) + "' where a whole number is expected");
     return value;

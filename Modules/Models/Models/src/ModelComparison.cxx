@@ -2,6 +2,8 @@
 
 #include "voxelcore/Models/MedialModel.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <bit>
 
@@ -13,7 +15,7 @@ namespace
 bool
 Same(double a, double b)
 {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  return bit_cast<std::uint64_t>(a) == bit_cast<std::uint64_t>(b);
 }
 
 bool

@@ -3,6 +3,7 @@
 #include "VtpFile.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/MedialModel.h"
 #include "voxelcore/VoxelCore/SoundCore.h"
 
@@ -391,8 +392,8 @@ ReadParts(ModelSource & file, bool anywhere)
     for (std::size_t i = 0; i < range.cells[0]; ++i)
     {
       const auto vertex = static_cast<std::size_t>(kinds[0][range.firstCell[0] + i][0]);
-      RequireFit(isRounded || std::bit_cast<std::uint64_t>(cellLambda[range.firstCell[0] + i]) ==
-                                std::bit_cast<std::uint64_t>(pointLambda[vertex]),
+      RequireFit(isRounded || bit_cast<std::uint64_t>(cellLambda[range.firstCell[0] + i]) ==
+                                bit_cast<std::uint64_t>(pointLambda[vertex]),
                  "an isolated vertex has two measures");
     }
     core.faceLambda = slice(cellLambda, kinds[0].Count() + kinds[1].Count() + range.firstCell[2], range.cells[2]);

@@ -45,7 +45,9 @@ Unpack(const std::string &   compressor,
        std::uint64_t         size)
 {
   MostGain(compressor);
-  return Inflate({ reinterpret_cast<const char *>(from), packed }, reinterpret_cast<char *>(to), size);
+  return Inflate({ reinterpret_cast<const char *>(from), static_cast<std::size_t>(packed) },
+                 reinterpret_cast<char *>(to),
+                 size);
 }
 
 } // namespace voxelcore

@@ -1,6 +1,7 @@
 #include "PlainArrays.h"
 
 #include "voxelcore/Base/OutputFile.h"
+#include "voxelcore/Base/Library.h"
 
 #include <bit>
 #include <type_traits>
@@ -33,7 +34,7 @@ public:
     using Bits = std::conditional_t<sizeof(Value) == 8,
                                     std::uint64_t,
                                     std::conditional_t<sizeof(Value) == 4, std::uint32_t, std::uint16_t>>;
-    const Bits bits = std::bit_cast<Bits>(value);
+    const Bits bits = bit_cast<Bits>(value);
     char       bytes[sizeof(Bits)];
     for (std::size_t i = 0; i < sizeof(Bits); ++i)
     {

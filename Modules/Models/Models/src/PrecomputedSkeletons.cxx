@@ -2,6 +2,7 @@
 // https://github.com/google/neuroglancer/blob/master/src/datasource/precomputed/skeletons.md
 
 #include "voxelcore/Base/OutputFile.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/SkeletonModel.h"
 
 #include <bit>
@@ -28,7 +29,7 @@ template <typename T>
 void
 Put(std::string & bytes, T value)
 {
-  auto bits = std::bit_cast<std::uint32_t>(value);
+  auto bits = bit_cast<std::uint32_t>(value);
   for (int byte = 0; byte < 4; ++byte, bits >>= 8U)
   {
     bytes += static_cast<char>(bits & 255U);

@@ -1,5 +1,7 @@
 #include "SavedSource.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <charconv>
 #include <cmath>
 
@@ -17,8 +19,7 @@ Digits(double value)
     return 0;
   }
   std::array<char, 40> text{};
-  const auto           end =
-    std::to_chars(text.data(), text.data() + text.size(), std::abs(value), std::chars_format::scientific).ptr;
+  const auto end = to_chars(text.data(), text.data() + text.size(), std::abs(value), std::chars_format::scientific).ptr;
   const std::string_view word(text.data(), static_cast<std::size_t>(end - text.data()));
   return static_cast<int>(word.find('e')) - (word[1] == '.' ? 1 : 0);
 }

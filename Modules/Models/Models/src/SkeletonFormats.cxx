@@ -1,5 +1,6 @@
 #include "voxelcore/Models/TextFile.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Models/SkeletonModel.h"
@@ -47,7 +48,7 @@ constexpr std::size_t kFirstSwcType = 5; // lower ones mean parts of neurons
 std::string
 SingleLine(std::string text)
 {
-  std::ranges::replace_if(
+  ranges::replace_if(
     text,
     [](char c) { return static_cast<unsigned char>(c) < 0x20U; },
     ' ');
@@ -95,7 +96,7 @@ SwcType(const SkeletonPart & part, const SkeletonGraph & graph, ElementIndex poi
     return hasSoma ? kDendriteType : 0;
   }
   const auto & labels = part.network->labels;
-  const auto   own = std::ranges::find(labels, graph.labels[point], &NetworkLabel::value);
+  const auto   own = ranges::find(labels, graph.labels[point], &NetworkLabel::value);
   if (hasSoma && own != labels.end())
   {
     const std::string name = LowerCase(own->name);

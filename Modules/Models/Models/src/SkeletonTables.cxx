@@ -1,5 +1,6 @@
 #include "voxelcore/Models/TableColumns.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/SkeletonModel.h"
 
 #include <algorithm>
@@ -227,7 +228,7 @@ WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model
     };
     const auto addNode = [&](const std::array<double, 3> & place) {
       const auto & points = part.graph.nodePoints;
-      const auto   node = std::ranges::find_if(points, [&](ElementIndex point) {
+      const auto   node = ranges::find_if(points, [&](ElementIndex point) {
         return part.graph.contact[point] && part.graph.positions[point] == place;
       });
       if (node == points.end()) // pruned

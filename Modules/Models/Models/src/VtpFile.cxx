@@ -2,6 +2,7 @@
 
 #include "VtpPacking.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ std::uint64_t
 Number(std::string_view text)
 {
   std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number);
   RequireFit(error == std::errc() && end == text.data() + text.size(), "a number in its header is damaged");
   return number;
 }

@@ -6,7 +6,7 @@
 
 #include <atomic>
 #include <bit>
-#include <thread>
+#include <future>
 
 namespace voxelcore
 {
@@ -28,10 +28,11 @@ PackVtpArray(std::string_view bytes)
     }
   };
   {
-    std::vector<std::jthread> others; // OpenMP has none in a process that was forked, and would wait for them
+    // OpenMP has none in a process that was forked, and would wait for them.
+    std::vector<std::future<void>> others;
     for (std::size_t i = 1; i < count && i < static_cast<std::size_t>(omp_get_max_threads()); ++i)
     {
-      others.emplace_back(work);
+      others.push_back(std::async(std::launch::async, work));
     }
     work();
   }

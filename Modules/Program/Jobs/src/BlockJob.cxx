@@ -1,9 +1,11 @@
 #include "voxelcore/Jobs/BlockJob.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "PlannedBlock.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/OutputStream.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Blocks/GridBlocks.h"
 #include "voxelcore/Blocks/HaloBlocks.h"
 #include "voxelcore/Imaging/LabelVolume.h"
@@ -47,13 +49,13 @@ ParseBlockName(std::string_view name, const std::string & start, std::size_t & b
   }
   const char * at = name.data() + start.size();
   const char * end = name.data() + name.size();
-  const auto   first = std::from_chars(at, end, block);
+  const auto   first = from_chars(at, end, block);
   const auto   left = std::string_view(first.ptr, static_cast<std::size_t>(end - first.ptr));
   if (first.ec != std::errc() || !left.starts_with(between))
   {
     return false;
   }
-  const auto second = std::from_chars(first.ptr + between.size(), end, blocks);
+  const auto second = from_chars(first.ptr + between.size(), end, blocks);
   return second.ec == std::errc() && std::string_view(second.ptr, static_cast<std::size_t>(end - second.ptr)) == ".vcb";
 }
 
@@ -229,7 +231,7 @@ GridOf(const BlockOptions & options)
 {
   const CoreOptions & core = options.core;
   const auto          isNumber = [](const std::string & text) {
-    return !text.empty() && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+    return !text.empty() && ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
   };
   if (!core.reading.binary && !core.reading.threshold && !isNumber(core.reading.labels))
   {

@@ -10,6 +10,7 @@
 #include "voxelcore/Jobs/LabelLoop.h"
 #include "ResultFiles.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Jobs/CostModel.h"
 #include "voxelcore/Jobs/NetworkLabels.h"
 #include "voxelcore/Jobs/OutputNames.h"
@@ -204,7 +205,7 @@ StageCoreJob(const CoreOptions & options,
 
   // The digest runs beside reading and computing, until the first result is written; a scan that cannot be read is
   // reported by the reader.
-  auto digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
+  auto digest = std::async(Beside(), [&options] { return ScanSha256(options.scan, options.reading); });
   const ProgressCallback look = plan.Next("reading");
   InputScan              volume =
     scan != nullptr ? std::move(scan->volume) : ReadScanOrMesh(options.scan, options.reading, options.resolution, look);

@@ -1,6 +1,7 @@
 #include "voxelcore/Jobs/LabelReading.h"
 
 #include "voxelcore/Base/Stopwatch.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/ReadInput.h"
 #include "voxelcore/Jobs/RefineStage.h"
@@ -16,7 +17,7 @@ ScanLabels
 ReadScanLabels(const CoreOptions & options, StagePlan & plan, CoreReport & report)
 {
   Stopwatch watch;
-  auto      digest = std::async(std::launch::async, [&options] { return ScanSha256(options.scan, options.reading); });
+  auto      digest = std::async(Beside(), [&options] { return ScanSha256(options.scan, options.reading); });
   InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   ScanLabels           read;

@@ -1,6 +1,7 @@
 #include "PlannedBlock.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/OutputStream.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/RawLayout.h"
@@ -57,7 +58,7 @@ FindPlan(const BlockOptions & options)
   try
   {
     ScanPlan   plan = ReadScanPlan(file, PlanPath(options).string());
-    const bool fits = std::ranges::all_of(plan.labels, [&](const PlannedLabel & label) {
+    const bool fits = ranges::all_of(plan.labels, [&](const PlannedLabel & label) {
       return label.plan.blocks.size() == options.blocks;
     });
     return fits && plan.source == PlanSource(options) ? std::optional(std::move(plan)) : std::nullopt;
@@ -164,7 +165,7 @@ ReadPlannedBlock(const BlockOptions & options, const ProgressCallback & progress
   {
     const PlannedLabel & planned = found.plan.labels[i];
     const auto           same =
-      std::ranges::find_if(part.labels, [&](const LabelShape & label) { return label.value == planned.value; });
+      ranges::find_if(part.labels, [&](const LabelShape & label) { return label.value == planned.value; });
     if (same != part.labels.end())
     {
       found.shapes[i] = std::move(same->shape);

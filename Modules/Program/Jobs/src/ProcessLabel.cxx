@@ -1,4 +1,5 @@
 #include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Jobs/JobTools.h"
 
 #include <algorithm>
@@ -23,7 +24,7 @@ RequestOf(const CoreOptions & options, SurfaceSource surface)
     request.skeleton->branches.splitAtJunctions = false;
   }
   const std::vector<std::string> & also = options.skeletonTargets.also;
-  request.spendsCores = options.output.empty() && options.skeleton && std::ranges::find(also, "ma") == also.end();
+  request.spendsCores = options.output.empty() && options.skeleton && ranges::find(also, "ma") == also.end();
   request.engine = options.engine;
   request.crossCheck = options.crossCheck;
   return request;

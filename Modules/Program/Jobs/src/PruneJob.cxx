@@ -2,6 +2,7 @@
 
 #include "FacelessLabels.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/OutputNames.h"
 

@@ -1,6 +1,7 @@
 #include "voxelcore/Jobs/ReadInput.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/ItkReader/ForeignFormats.h"
@@ -195,7 +196,7 @@ ParseResolutions(const std::string & text)
   {
     const std::size_t comma = std::min(text.find(',', at), text.size());
     std::int64_t      value = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + comma, value);
+    const auto [end, error] = from_chars(text.data() + at, text.data() + comma, value);
     if (error != std::errc() || end != text.data() + comma || value < 1 || value > most ||
         std::find(resolutions.begin(), resolutions.end(), value) != resolutions.end())
     {

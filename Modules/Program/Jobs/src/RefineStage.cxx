@@ -1,6 +1,7 @@
 #include "voxelcore/Jobs/RefineStage.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Shape/BodyFrame.h"
@@ -125,7 +126,7 @@ KeptRows(const GreyBoxRows & grey)
            static_cast<std::size_t>(x - box.lower[0]);
   };
   grey.visit([&](std::int32_t y, std::int32_t z, std::span<const float> row) {
-    std::ranges::copy(row, values->begin() + static_cast<std::ptrdiff_t>(placeOf(box.lower[0], y, z)));
+    ranges::copy(row, values->begin() + static_cast<std::ptrdiff_t>(placeOf(box.lower[0], y, z)));
   });
   return [values, placeOf](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> row) {
     std::copy_n(values->begin() + static_cast<std::ptrdiff_t>(placeOf(x, y, z)), row.size(), row.begin());
@@ -159,7 +160,7 @@ GreySource(const RefineOptions &         options,
     const auto rows = [take = input.greyRows,
                        within](std::int32_t x, std::int32_t y, std::int32_t z, std::span<float> values) {
       take(x, y, z, values);
-      std::ranges::transform(values, values.begin(), within);
+      ranges::transform(values, values.begin(), within);
     };
     return [=, spacing = input.geometry.spacing](const VoxelShape &           shape,
                                                  const SurfaceSource::Place & place,
@@ -192,7 +193,7 @@ GreySource(const RefineOptions &         options,
     const auto     visit = [&](const GreyRowTaker & take) {
       std::vector<float> inside(static_cast<std::size_t>(box.size[0]));
       const auto         takeRow = [&](std::int32_t y, std::int32_t z, std::span<const float> values) {
-        std::ranges::transform(values, inside.begin(), within);
+        ranges::transform(values, inside.begin(), within);
         take(y - place[1], z - place[2], inside);
       };
       const VoxelBox inScan = LookedAtFrom({ -place[0], -place[1], -place[2] }, box);

@@ -2,6 +2,7 @@
 
 #include "SkeletonNotes.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Complex/ComplexTopology.h"
 #include "voxelcore/Jobs/CoreJob.h"
 #include "voxelcore/Jobs/DisplayFiles.h"

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Jobs/JobTools.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Report/SkeletonTexts.h"
@@ -26,7 +27,7 @@ TellBorderCuts(const CoreReport & report, std::vector<std::string> & notes)
     }
     const BorderNumbers & border = *label.skeleton->border;
     const auto            isCut = [](const BorderSection & section) { return section.isCut; };
-    labels += std::ranges::any_of(border.sections, isCut) ? 1 : 0;
+    labels += ranges::any_of(border.sections, isCut) ? 1 : 0;
     ends += border.ends;
     for (const BorderSection & section : border.sections)
     {
@@ -68,7 +69,7 @@ TellClosedBorder(const CoreReport & report, std::vector<std::string> & notes)
     }
     return false;
   };
-  const auto count = std::ranges::count_if(report.labels, isAtBorder);
+  const auto count = ranges::count_if(report.labels, isAtBorder);
   if (count > 0 && !report.parameters.resolution)
   {
     notes.push_back(Counted(static_cast<std::uint64_t>(count),
@@ -110,7 +111,7 @@ TellConnectivity(const std::filesystem::path & input, const CoreReport & report,
 {
   const Connectivity connectivity = report.parameters.edits.connectivity;
   const bool         hasPieces =
-    std::ranges::any_of(report.labels, [](const LabelRecord & label) { return label.shape.betti[0] > 1; });
+    ranges::any_of(report.labels, [](const LabelRecord & label) { return label.shape.betti[0] > 1; });
   if (connectivity != Connectivity::Six)
   {
     notes.push_back(input.string() + " was made with --connectivity " + std::string(ConnectivityName(connectivity)));

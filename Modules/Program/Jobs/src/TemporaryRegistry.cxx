@@ -1,13 +1,8 @@
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Jobs/OutputTransaction.h"
 
-#include <array>
-#include <cstdint>
-#include <cstring>
-#include <fcntl.h>
 #include <memory>
 #include <string>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 namespace voxelcore
 {
@@ -58,54 +53,14 @@ TemporaryRegistry::Forget(const fs::path & path)
   }
 }
 
-namespace
-{
-
-/** Removes what is in a directory, folders in it to a depth. What a signal handler may call, which readdir() is not. */
-void
-RemoveFilesIn(int parent, const char * path, int depth)
-{
-  // Of each linux_dirent64: where its length and its name stand.
-  constexpr long lengthAt = 16;
-  constexpr long nameAt = 19;
-  const int      directory = openat(parent, path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (directory < 0)
-  {
-    return;
-  }
-  alignas(std::uint64_t) std::array<char, 4096> buffer;
-  for (long size = 0; (size = syscall(SYS_getdents64, directory, buffer.data(), buffer.size())) > 0;)
-  {
-    std::uint16_t length = 0;
-    for (long at = 0; at < size; at += length)
-    {
-      std::memcpy(&length, buffer.data() + at + lengthAt, sizeof(length));
-      const char * name = buffer.data() + at + nameAt;
-      const bool   itself = std::strcmp(name, ".") == 0 || std::strcmp(name, "..") == 0;
-      if (!itself && unlinkat(directory, name, 0) != 0 && depth > 0)
-      {
-        RemoveFilesIn(directory, name, depth - 1);
-        unlinkat(directory, name, AT_REMOVEDIR);
-      }
-    }
-  }
-  close(directory);
-}
-
-} // namespace
-
 void
 TemporaryRegistry::RemoveAllNow() const
 {
   for (const Entry * entry = m_Head.load(); entry != nullptr; entry = entry->next)
   {
-    if (entry->live.load() && unlink(entry->path.c_str()) != 0)
+    if (entry->live.load())
     {
-      if (entry->withContents)
-      {
-        RemoveFilesIn(AT_FDCWD, entry->path.c_str(), 3);
-      }
-      rmdir(entry->path.c_str());
+      RemoveNow(entry->path.c_str(), entry->withContents);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The values given to a command, read by kind.
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Base/DidYouMean.h"
 #include "voxelcore/Base/Error.h"
@@ -114,7 +115,7 @@ public:
   {
     const std::string text = Text(name);
     std::int64_t      value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || value < least || value > most)
     {
       ThrowUsageError(name,

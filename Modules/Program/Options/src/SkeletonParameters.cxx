@@ -2,6 +2,7 @@
 #include "ParameterReader.h"
 #include "SkeletonValues.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Options/Parameters.h"
@@ -133,7 +134,7 @@ RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & 
     {
       throw UsageError("--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
                        " is a medial surface; give the option to 'voxelcore core', or the scan to 'voxelcore " +
-                       std::string(std::ranges::find(Commands(), command, &Command::id)->name) + "'");
+                       std::string(ranges::find(Commands(), command, &Command::id)->name) + "'");
     }
   }
 }
@@ -192,7 +193,7 @@ TargetsFrom(const ParameterValues & values, CommandId command)
       reader.ThrowUsageError("soma", "auto, or one point, X,Y,Z in LPS mm");
     }
     targets.soma = { places.empty() ? std::optional<Vector3>() : places[0] };
-    if (std::ranges::find(targets.also, "swc") == targets.also.end())
+    if (ranges::find(targets.also, "swc") == targets.also.end())
     {
       throw UsageError("--soma: needs --also swc");
     }

@@ -3,6 +3,7 @@
 #include "FieldReader.h"
 #include "ParameterReader.h"
 #include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Report/SkeletonTexts.h"
 
 #include <charconv>
@@ -18,7 +19,7 @@ std::optional<std::int64_t>
 CountFrom(std::string_view text)
 {
   std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && value >= 0 ? std::optional(value) : std::nullopt;
 }
 

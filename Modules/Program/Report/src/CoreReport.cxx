@@ -9,7 +9,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <sys/resource.h>
 
 namespace voxelcore
 {
@@ -331,37 +330,6 @@ LabelRecordJson(const LabelRecord & label, SpatialUnit unit)
   Json json = KeysInUnit(LabelJson(label, false), unit);
   json["seconds"] = label.seconds;
   return Dump(json);
-}
-
-double
-PeakMemoryMb()
-{
-  // VmHWM begins anew with the program; ru_maxrss would count what the starting process had.
-  std::ifstream status("/proc/self/status");
-  for (std::string line; std::getline(status, line);)
-  {
-    if (line.starts_with("VmHWM:"))
-    {
-      return std::stod(line.substr(6)) / 1024;
-    }
-  }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-std::optional<double>
-AvailableMemoryMb()
-{
-  std::ifstream file("/proc/meminfo");
-  for (std::string line; std::getline(file, line);)
-  {
-    if (line.starts_with("MemAvailable:"))
-    {
-      return 0.9 * std::stod(line.substr(13)) * 1024 / 1e6;
-    }
-  }
-  return std::nullopt;
 }
 
 } // namespace voxelcore

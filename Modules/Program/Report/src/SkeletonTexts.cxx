@@ -2,6 +2,7 @@
 
 #include "voxelcore/Base/DidYouMean.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
@@ -36,7 +37,7 @@ ParsePlaces(const std::string & text)
   for (const std::string & one : SplitText(text, ';'))
   {
     std::vector<std::string> parts = SplitText(one, ',');
-    std::ranges::transform(parts, parts.begin(), [](const std::string & part) { return std::string(Trim(part)); });
+    ranges::transform(parts, parts.begin(), [](const std::string & part) { return std::string(Trim(part)); });
     const auto place = ParsePlace(parts);
     if (!place)
     {

@@ -32,7 +32,12 @@ VersionText()
   {
     text += ", " + library;
   }
-  return text + ", OpenMP " + std::to_string(_OPENMP) + "\n";
+#ifdef _OPENMP
+  text += ", OpenMP " + std::to_string(_OPENMP);
+#else
+  text += ", one thread";
+#endif
+  return text + "\n";
 }
 
 } // namespace voxelcore

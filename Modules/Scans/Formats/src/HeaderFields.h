@@ -1,6 +1,8 @@
 #pragma once
 // Headers of fixed layout.
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -29,7 +31,7 @@ public:
     {
       std::reverse(raw.begin(), raw.end());
     }
-    return std::bit_cast<T>(raw);
+    return bit_cast<T>(raw);
   }
 
 private:

@@ -1,6 +1,7 @@
 #include "LsmInfo.h"
 
 #include "TiffHandle.h"
+#include "voxelcore/Base/Library.h"
 
 #include <bit>
 #include <cmath>
@@ -24,7 +25,7 @@ At(const unsigned char * block, std::size_t offset)
   {
     std::reverse(bytes.begin(), bytes.end());
   }
-  return std::bit_cast<T>(bytes);
+  return bit_cast<T>(bytes);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "JpegFile.h"
 #include "PngFile.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 #include "TiffFile.h"
 
@@ -243,9 +244,9 @@ AreJpegs(const std::filesystem::path & folder)
   for (const auto & entry : std::filesystem::directory_iterator(folder, ignored))
   {
     const std::string name = LowerCase(entry.path().filename().string());
-    const bool        isText = std::ranges::any_of(
-      std::initializer_list<std::string_view>{ ".txt", ".log", ".csv", ".json", ".xml", ".md", ".db" },
-      [&](std::string_view ending) { return name.ends_with(ending); });
+    const bool        isText =
+      ranges::any_of(std::initializer_list<std::string_view>{ ".txt", ".log", ".csv", ".json", ".xml", ".md", ".db" },
+                     [&](std::string_view ending) { return name.ends_with(ending); });
     if (name.starts_with('.') || isText)
     {
       continue;

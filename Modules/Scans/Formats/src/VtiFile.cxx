@@ -3,6 +3,7 @@
 
 #include "PieceStream.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 
 #include <expat.h>
@@ -428,7 +429,7 @@ ChooseArray(const std::filesystem::path & path, const VtiHeader & header, const 
     names += (names.empty() ? "" : ", ") + Printable(AttributeOf(array.attributes, "Name"), 60);
   }
   const auto named = [&](const std::string & name, bool any, bool ofCells) -> const VtiArray * {
-    const auto found = std::ranges::find_if(header.arrays, [&](const VtiArray & array) {
+    const auto found = ranges::find_if(header.arrays, [&](const VtiArray & array) {
       return AttributeOf(array.attributes, "Name") == name && (any || array.ofCells == ofCells);
     });
     return found == header.arrays.end() ? nullptr : &*found;

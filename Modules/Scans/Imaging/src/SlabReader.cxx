@@ -1,5 +1,7 @@
 #include "SlabReader.h"
 
+#include "voxelcore/Base/SystemCalls.h"
+
 #include <algorithm>
 
 namespace voxelcore
@@ -52,7 +54,7 @@ SlabReader::SlabReader(ScanFile & scan, const CropRange & part)
   , m_PartBytes(static_cast<std::size_t>(part.end[0] - part.first[0]) * scan.interleaved * PixelBytes(scan.type))
   , m_Next(static_cast<std::uint64_t>(part.first[2]) * m_SizeY + m_FirstY)
 {
-  if (m_PartRows > kSlabBytes / m_RowBytes)
+  if (m_PartRows > kSlabBytes / m_RowBytes && CanStartThreads())
   {
     m_Thread = std::thread(&SlabReader::Run, this);
   }

@@ -1,5 +1,6 @@
 #include "voxelcore/ItkReader/ForeignFormats.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 
@@ -318,7 +319,7 @@ bool
 IsDicomFolder(const std::filesystem::path & path)
 {
   const auto isDicom = [](const auto & file) { return ItkFormatOf(file) == ItkFormat::Dicom; };
-  return !HasSlices(path) && std::ranges::any_of(FirstFiles(path), isDicom);
+  return !HasSlices(path) && ranges::any_of(FirstFiles(path), isDicom);
 }
 
 void

@@ -1,6 +1,7 @@
 #include "ItkScan.h"
 
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Base/Library.h"
 
 #include <charconv>
 #include <iterator>
@@ -16,7 +17,7 @@ std::string
 Exactly(double value)
 {
   std::array<char, 64> text;
-  const auto           end = std::to_chars(text.begin(), text.end(), value).ptr;
+  const auto           end = to_chars(text.begin(), text.end(), value).ptr;
   return { text.begin(), end };
 }
 
@@ -65,7 +66,7 @@ public:
   {
     const std::string_view word = Word();
     T                      value{};
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size())
     {
       RefuseInput(m_Path,

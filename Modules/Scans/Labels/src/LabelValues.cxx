@@ -2,6 +2,7 @@
 
 #include "LabelCollector.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Labels/ScaledValue.h"
 
 #include <bit>
@@ -36,11 +37,11 @@ LabelCollector::Value(std::uint64_t bits) const
     case PixelType::Int64:
       return static_cast<double>(static_cast<std::int64_t>(bits));
     case PixelType::Float32:
-      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+      return static_cast<double>(bit_cast<float>(static_cast<std::uint32_t>(bits)));
     case PixelType::Float64:
       break;
   }
-  return std::bit_cast<double>(bits);
+  return bit_cast<double>(bits);
 }
 
 void

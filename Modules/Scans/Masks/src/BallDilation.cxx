@@ -1,6 +1,7 @@
 #include "BallDilation.h"
 
 #include "BallDistances.h"
+#include "voxelcore/Base/Library.h"
 
 #include <cmath>
 
@@ -59,7 +60,7 @@ Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback 
   {
     for (std::int32_t y = 0; y < box.size[1]; ++y)
     {
-      holds[rowOf(y, z)] = std::ranges::any_of(shape.Row(y, z), [](std::uint64_t word) { return word != 0; }) ? 1 : 0;
+      holds[rowOf(y, z)] = ranges::any_of(shape.Row(y, z), [](std::uint64_t word) { return word != 0; }) ? 1 : 0;
     }
   }
   ForSlices(grown.size[2], progress, [&](std::int32_t z) {
@@ -67,7 +68,7 @@ Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback 
     BitRow spare(row.size());
     for (std::int32_t y = 0; y < grown.size[1]; ++y)
     {
-      std::ranges::fill(row, 0);
+      ranges::fill(row, 0);
       const bool any = AddBallRows(ball, row, spare, [&](std::int32_t dy, std::int32_t dz) {
         const std::int32_t fromY = y - margin[1] - dy;
         const std::int32_t fromZ = z - margin[2] - dz;
@@ -84,7 +85,7 @@ Dilated(const VoxelShape & shape, const BallRows & ball, const ProgressCallback 
       });
       if (any)
       {
-        std::ranges::copy(row, dilated.Row(y, z).begin());
+        ranges::copy(row, dilated.Row(y, z).begin());
       }
     }
   });

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Shape/LowerEnvelope.h"
 #include "NearestAlongZ.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 
 #include "voxelcore/Base/StagePlan.h"
@@ -163,7 +164,7 @@ public:
                             m_Ball.reach[0],
                             std::span(m_AlongX).subspan(static_cast<std::size_t>(y) * m_Width, m_Width));
     }
-    std::ranges::fill(reach, static_cast<SliceNumber>(kNone));
+    ranges::fill(reach, static_cast<SliceNumber>(kNone));
     for (std::size_t x = 0; x < m_Width; ++x)
     {
       m_Least.Clear();
@@ -233,7 +234,7 @@ DilateByDistances(const VoxelShape &       shape,
 #pragma omp for schedule(dynamic, 1)
       for (std::int32_t slice = first; slice < end; ++slice)
       {
-        std::ranges::fill(half, kNone);
+        ranges::fill(half, kNone);
         const SliceNumber * way = ways.data() + static_cast<std::size_t>(slice - first) * area;
         for (std::size_t x = 0; x < width; ++x)
         {
@@ -278,7 +279,7 @@ ErodeByDistances(const VoxelShape &       dilated,
   std::vector<std::int32_t> until(area);
   // Of the balls about background in the slices so far, that which reaches farthest: upwards, then downwards.
   const auto sweep = [&](std::int32_t start, std::int32_t direction, const ProgressCallback & part) {
-    std::ranges::fill(until, std::numeric_limits<std::int32_t>::min());
+    ranges::fill(until, std::numeric_limits<std::int32_t>::min());
     ForBatches(size[2] + room, part, [&](std::int32_t first, std::int32_t end) {
 #pragma omp parallel
       {

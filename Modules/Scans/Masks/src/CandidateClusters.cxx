@@ -1,6 +1,7 @@
 #include "CandidateClusters.h"
 
 #include "voxelcore/Base/UnionFind.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <numeric>
@@ -108,14 +109,14 @@ NumberParts(std::size_t candidates, std::size_t own, std::vector<CandidateGraph:
       parts.push_back(edge.second);
     }
   }
-  std::ranges::sort(parts);
+  ranges::sort(parts);
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
   for (auto & edge : edges)
   {
     if (edge.second >= candidates)
     {
       edge.second = static_cast<std::uint32_t>(
-        own + static_cast<std::size_t>(std::ranges::lower_bound(parts, edge.second) - parts.begin()));
+        own + static_cast<std::size_t>(ranges::lower_bound(parts, edge.second) - parts.begin()));
     }
   }
   return parts.size();
@@ -216,7 +217,7 @@ ClusterNumbers::Rank(const std::vector<CandidateGraph::Edge> & edges, const std:
 TopologyShift
 ClusterNumbers::operator()(const std::vector<char> & isIn)
 {
-  const auto   in = static_cast<std::int64_t>(std::ranges::count(isIn, char{ 1 }));
+  const auto   in = static_cast<std::int64_t>(ranges::count(isIn, char{ 1 }));
   const auto   out = static_cast<std::int64_t>(isIn.size()) - in;
   std::int64_t euler = 0;
   for (const CandidateGraph::Term & term : m_Cluster.terms)

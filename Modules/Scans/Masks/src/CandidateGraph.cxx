@@ -1,6 +1,7 @@
 #include "CandidateGraph.h"
 
 #include "voxelcore/Shape/ShapeRuns.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <bit>
@@ -199,7 +200,7 @@ private:
     }
     for (auto * edges : { &m_Graph.objectEdges, &m_Graph.backgroundEdges })
     {
-      std::ranges::sort(*edges);
+      ranges::sort(*edges);
       edges->erase(std::unique(edges->begin(), edges->end()), edges->end());
     }
   }
@@ -208,11 +209,11 @@ private:
   static void
   Renumber(std::vector<std::uint32_t> & parts, std::uint32_t first, std::vector<CandidateGraph::Edge> & edges)
   {
-    std::ranges::sort(parts);
+    ranges::sort(parts);
     parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
     for (auto & edge : edges)
     {
-      edge.second = first + static_cast<std::uint32_t>(std::ranges::lower_bound(parts, edge.second) - parts.begin());
+      edge.second = first + static_cast<std::uint32_t>(ranges::lower_bound(parts, edge.second) - parts.begin());
     }
   }
 
@@ -252,7 +253,7 @@ private:
       term.who[0] = static_cast<std::uint32_t>(i);
       term.euler = ofOne[i];
     }
-    std::ranges::sort(terms, {}, &CandidateGraph::Term::who);
+    ranges::sort(terms, {}, &CandidateGraph::Term::who);
     for (const CandidateGraph::Term & term : terms)
     {
       if (m_Graph.terms.empty() || m_Graph.terms.back().who != term.who)

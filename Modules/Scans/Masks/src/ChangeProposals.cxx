@@ -1,6 +1,7 @@
 #include "ChangeProposals.h"
 
 #include "LeastCut.h"
+#include "voxelcore/Base/Library.h"
 
 #include <functional>
 #include <limits>
@@ -115,7 +116,7 @@ public:
       {
         const std::uint32_t label = labels[numbers[i]];
         if (label != ChangeWindow::kNone && (one.isFirst[i] != 0) != (label == sides[0]) &&
-            !std::ranges::binary_search(proposal.voxels, numbers[i]))
+            !ranges::binary_search(proposal.voxels, numbers[i]))
         {
           proposal.between.push_back(numbers[i]);
         }
@@ -170,7 +171,7 @@ public:
     ChangeWindow::Labels labels;
     m_Window.Flood(m_Before, m_From, corners, labels);
     const std::uint32_t part = labels[m_Change.voxels.front()];
-    const auto          voxels = static_cast<std::size_t>(std::ranges::count(labels, part));
+    const auto          voxels = static_cast<std::size_t>(ranges::count(labels, part));
     for (const std::size_t number : m_Change.voxels)
     {
       if (labels[number] != part || voxels != m_Change.voxels.size())
@@ -206,13 +207,13 @@ private:
     for (const std::size_t number : m_Change.voxels)
     {
       m_Window.VisitAround(number, corners, [&](std::size_t next) {
-        if (labels[next] != ChangeWindow::kNone && std::ranges::find(sides, labels[next]) == sides.end())
+        if (labels[next] != ChangeWindow::kNone && ranges::find(sides, labels[next]) == sides.end())
         {
           sides.push_back(labels[next]);
         }
       });
     }
-    std::ranges::sort(sides);
+    ranges::sort(sides);
     return sides;
   }
 
@@ -248,7 +249,7 @@ private:
         {
           result.voxels.push_back(at);
         }
-        std::ranges::sort(result.voxels);
+        ranges::sort(result.voxels);
         break;
       }
       if (cost != way[number])
@@ -304,7 +305,7 @@ ProposeChanges(const ChangeInWindow & change, std::vector<char> now)
   }
   auto proposals = proposer.Release();
   std::erase_if(proposals, [&](const ChangeProposal & one) { return one.cost >= change.total; });
-  std::ranges::stable_sort(proposals, {}, &ChangeProposal::cost);
+  ranges::stable_sort(proposals, {}, &ChangeProposal::cost);
   return proposals;
 }
 

@@ -1,6 +1,7 @@
 #include "ChangeRefinement.h"
 
 #include "ChangeProposals.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,7 @@ public:
     for (int turn = 0; turn < kMostTurns; ++turn)
     {
       const bool isBetterNow =
-        std::ranges::any_of(kReaches, [&](std::int32_t reach) { return RefineWithin(reach, part, isFill, mayTurn); });
+        ranges::any_of(kReaches, [&](std::int32_t reach) { return RefineWithin(reach, part, isFill, mayTurn); });
       isBetter = isBetter || isBetterNow;
       if (!isBetterNow)
       {
@@ -86,7 +87,7 @@ private:
   RefineWithin(std::int32_t reach, std::vector<Voxel> & part, bool & isFill, bool mayTurn)
   {
     const ChangeWindow window(m_Shape, part, reach);
-    if (std::ranges::max(window.Size()) > kLongestWindow || !HasWork())
+    if (ranges::max(window.Size()) > kLongestWindow || !HasWork())
     {
       return false;
     }
@@ -97,14 +98,14 @@ private:
       {
         return std::uint64_t{ 0 };
       }
-      return std::ranges::find(barred, number) == barred.end() ? std::uint64_t{ m_Cost(at) } : kBarred;
+      return ranges::find(barred, number) == barred.end() ? std::uint64_t{ m_Cost(at) } : kBarred;
     };
     ChangeInWindow change{ window, isFill, mayTurn, reach, CostOf(part), {}, costAt };
     for (const Voxel & at : part)
     {
       change.voxels.push_back(window.NumberOf(at));
     }
-    std::ranges::sort(change.voxels);
+    ranges::sort(change.voxels);
     // The cheapest first. For one that leaves a loop or a scrap behind, those without one of its voxels are looked at.
     std::multimap<std::uint64_t, std::pair<ChangeProposal, VoxelNumbers>> waiting;
     std::set<VoxelNumbers>                                                seen;
@@ -214,8 +215,8 @@ private:
   void
   CostliestFirst(std::vector<Voxel> & voxels) const
   {
-    std::ranges::sort(voxels);
-    std::ranges::stable_sort(voxels, std::ranges::greater{}, [&](const Voxel & at) { return m_Cost(at); });
+    ranges::sort(voxels);
+    ranges::stable_sort(voxels, ranges::greater{}, [&](const Voxel & at) { return m_Cost(at); });
   }
 
   /** By simple voxels: the change grows up to its new place, then all that can goes back, costly voxels and those of
@@ -226,7 +227,7 @@ private:
     const std::vector<Voxel> old = part;
     std::vector<Voxel>       grown;
     between.insert(between.end(), voxels.begin(), voxels.end());
-    std::erase_if(between, [&](const Voxel & at) { return std::ranges::find(old, at) != old.end(); });
+    std::erase_if(between, [&](const Voxel & at) { return ranges::find(old, at) != old.end(); });
     m_Work += 10 * between.size();
     FlipSimple(between, grown);
     grown.insert(grown.end(), old.begin(), old.end());
@@ -234,7 +235,7 @@ private:
     std::vector<Voxel> others;
     for (const Voxel & at : grown)
     {
-      (std::ranges::find(voxels, at) == voxels.end() ? others : wanted).push_back(at);
+      (ranges::find(voxels, at) == voxels.end() ? others : wanted).push_back(at);
     }
     std::vector<Voxel> back;
     CostliestFirst(others);
@@ -245,7 +246,7 @@ private:
     others.insert(others.end(), wanted.begin(), wanted.end());
     if (CostOf(others) < CostOf(old) && !others.empty())
     {
-      std::ranges::sort(others);
+      ranges::sort(others);
       part = std::move(others);
       return true;
     }
@@ -266,7 +267,7 @@ private:
 std::vector<std::vector<Voxel>>
 PartsOf(std::vector<Voxel> left, bool corners)
 {
-  std::ranges::sort(left);
+  ranges::sort(left);
   std::vector<std::vector<Voxel>> parts;
   std::vector<char>               isDone(left.size(), 0);
   for (std::size_t first = 0; first < left.size(); ++first)
@@ -286,7 +287,7 @@ PartsOf(std::vector<Voxel> left, bool corners)
           continue;
         }
         const Voxel next{ part[i][0] + step[0], part[i][1] + step[1], part[i][2] + step[2] };
-        const auto  found = std::ranges::lower_bound(left, next);
+        const auto  found = ranges::lower_bound(left, next);
         if (found != left.end() && *found == next &&
             std::exchange(isDone[static_cast<std::size_t>(found - left.begin())], char{ 1 }) == 0)
         {
@@ -319,7 +320,7 @@ Describe(TopologyChange & change, const std::vector<Voxel> & voxels, const Voxel
     coordinate /= static_cast<double>(change.voxels);
   }
   // In scan order, as runs of voxels are made of them.
-  std::ranges::sort(change.where, {}, [](const auto & at) { return std::array{ at[2], at[1], at[0] }; });
+  ranges::sort(change.where, {}, [](const auto & at) { return std::array{ at[2], at[1], at[0] }; });
 }
 
 } // namespace
@@ -337,7 +338,7 @@ RefineChanges(PaddedShape &            shape,
   const Voxel  back{ shift(0), shift(1), shift(2) };
   const double share = 1 / static_cast<double>(std::max<std::size_t>(1, result.changes.size()));
   // The greatest first: work is limited.
-  std::ranges::stable_sort(result.changes, std::ranges::greater{}, [](const auto & one) { return one.where.size(); });
+  ranges::stable_sort(result.changes, ranges::greater{}, [](const auto & one) { return one.where.size(); });
   double done = 0;
   for (TopologyChange & change : result.changes)
   {
@@ -373,7 +374,7 @@ RefineChanges(PaddedShape &            shape,
     (change.isFill ? result.voxelsAdded : result.voxelsRemoved) += change.voxels;
     result.cost += change.cost;
   }
-  std::ranges::stable_sort(result.changes, std::ranges::greater{}, &TopologyChange::cost);
+  ranges::stable_sort(result.changes, ranges::greater{}, &TopologyChange::cost);
 }
 
 } // namespace voxelcore

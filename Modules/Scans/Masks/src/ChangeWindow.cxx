@@ -1,5 +1,7 @@
 #include "ChangeWindow.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <array>
 #include <utility>
 
@@ -67,7 +69,7 @@ bool
 ChangeWindow::IsBorder(std::size_t number) const
 {
   const Voxel at = At(number);
-  return std::ranges::any_of(std::array<std::size_t, 3>{ 0, 1, 2 }, [&](std::size_t axis) {
+  return ranges::any_of(std::array<std::size_t, 3>{ 0, 1, 2 }, [&](std::size_t axis) {
     return at[axis] == m_Lower[axis] || at[axis] == m_Lower[axis] + m_Size[axis] - 1;
   });
 }
@@ -133,7 +135,7 @@ ChangeWindow::Euler(std::vector<char> is, std::size_t axis) const
 {
   if (axis == 3)
   {
-    return std::ranges::count(is, char{ 1 });
+    return ranges::count(is, char{ 1 });
   }
   const std::int64_t here = Euler(is, axis + 1);
   // What is there with the next along the axis, too.

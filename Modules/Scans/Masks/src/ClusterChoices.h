@@ -5,6 +5,7 @@
 #include "CandidateClusters.h"
 #include "CandidateGraph.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Progress.h"
 
 #include <algorithm>
@@ -84,7 +85,7 @@ public:
   {
     AsItIs();
     const auto least = Search(badness, progress);
-    std::ranges::fill(m_IsIn, char{ 0 });
+    ranges::fill(m_IsIn, char{ 0 });
     if (badness(Look(), Cost()).first < least.first)
     {
       Search(badness, progress);
@@ -218,7 +219,7 @@ private:
     {
       for (const std::uint32_t other : neighbours[window[i]])
       {
-        if (window.size() < most && std::ranges::find(window, other) == window.end())
+        if (window.size() < most && ranges::find(window, other) == window.end())
         {
           window.push_back(other);
         }

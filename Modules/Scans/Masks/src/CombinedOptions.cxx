@@ -1,5 +1,7 @@
 #include "CombinedOptions.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -46,7 +48,7 @@ CombineExactly(const std::vector<ClusterOptions> & all, const TopologyShift & wa
     }
     states.push_back(std::move(next));
   }
-  const auto                         best = std::ranges::min_element(states.back(), {}, [&](const auto & item) {
+  const auto                         best = ranges::min_element(states.back(), {}, [&](const auto & item) {
     return Badness(Distance(item.first, wanted), item.second.cost);
   });
   std::vector<const ClusterOption *> chosen(all.size());
@@ -127,7 +129,7 @@ CombineFewest(const std::vector<ClusterOptions> & all)
   std::vector<const ClusterOption *> chosen;
   for (const ClusterOptions & options : all)
   {
-    const auto best = std::ranges::min_element(options, {}, [](const auto & item) {
+    const auto best = ranges::min_element(options, {}, [](const auto & item) {
       return Badness(item.first[0] + item.first[1] + item.first[2], item.second.cost);
     });
     chosen.push_back(&best->second);

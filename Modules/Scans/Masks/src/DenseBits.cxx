@@ -1,6 +1,7 @@
 #include "DenseBits.h"
 
 #include "voxelcore/Base/CountBits.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 
 #include <algorithm>
@@ -263,7 +264,7 @@ DilatedBits(const VoxelShape & shape, const BallRows & ball)
     BitRow spare(slice.size());
     for (auto z = static_cast<std::int32_t>(first); z < static_cast<std::int32_t>(last); ++z)
     {
-      std::ranges::fill(slice, 0);
+      ranges::fill(slice, 0);
       const bool any = AddBallRows(ball, slice, spare, [&](std::int32_t dy, std::int32_t dz) {
         const std::int32_t fromZ = z - dz;
         // Beyond the room lies nothing: rows that would leave the slice are empty.
@@ -283,7 +284,7 @@ DilatedBits(const VoxelShape & shape, const BallRows & ball)
       });
       if (any)
       {
-        std::ranges::copy(slice, dilated.Row(0, z));
+        ranges::copy(slice, dilated.Row(0, z));
       }
     }
   });

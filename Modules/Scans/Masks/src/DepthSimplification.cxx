@@ -2,6 +2,7 @@
 
 #include "BallDilation.h"
 #include "EditedBits.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeBits.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 
@@ -70,7 +71,7 @@ public:
   {
     const BallRows                               rows(ball);
     const auto &                                 w = ball.weight;
-    const auto                                   smallest = static_cast<double>(*std::ranges::min_element(w));
+    const auto                                   smallest = static_cast<double>(*ranges::min_element(w));
     std::vector<std::pair<std::int64_t, Offset>> sorted;
     for (std::int32_t z = -rows.reach[2]; z <= rows.reach[2]; ++z)
     {
@@ -87,7 +88,7 @@ public:
         }
       }
     }
-    std::ranges::stable_sort(sorted, {}, &std::pair<std::int64_t, Offset>::first);
+    ranges::stable_sort(sorted, {}, &std::pair<std::int64_t, Offset>::first);
     for (const auto & [squared, offset] : sorted)
     {
       m_Offsets.push_back(offset);
@@ -134,7 +135,7 @@ LatticeBall
 BallOfDepth(const GapWidth & depth, const ImageGeometry & geometry)
 {
   const LatticeBall ball = BallOfDiameter({ 2 * depth.value, depth.unit, depth.text }, geometry);
-  const auto        most = kMostDepth * static_cast<double>(*std::ranges::min_element(ball.weight));
+  const auto        most = kMostDepth * static_cast<double>(*ranges::min_element(ball.weight));
   if (static_cast<double>(ball.squaredRadius) > most * most)
   {
     throw InputError(depth.text + " is more than 32 voxels; give a smaller depth");

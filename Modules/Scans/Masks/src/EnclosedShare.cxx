@@ -3,6 +3,7 @@
 #include "BallDilation.h"
 #include "EditedBits.h"
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <array>
@@ -31,13 +32,13 @@ struct Given
 void
 WithinAStep(const VoxelShape & region, std::int32_t y, std::int32_t z, BitRow & row, BitRow & spare)
 {
-  std::ranges::fill(row, 0);
+  ranges::fill(row, 0);
   for (std::int32_t nextZ = std::max(z - 1, 0); nextZ <= std::min(z + 1, region.Box().size[2] - 1); ++nextZ)
   {
     for (std::int32_t nextY = std::max(y - 1, 0); nextY <= std::min(y + 1, region.Box().size[1] - 1); ++nextY)
     {
       const auto beside = region.Row(nextY, nextZ);
-      std::ranges::transform(row, beside, row.begin(), [](std::uint64_t a, std::uint64_t b) { return a | b; });
+      ranges::transform(row, beside, row.begin(), [](std::uint64_t a, std::uint64_t b) { return a | b; });
     }
   }
   Spread<true>(row, spare);
@@ -73,7 +74,7 @@ EnclosedShare(VoxelShape               between,
         for (std::int32_t y = 0; y < size[1]; ++y)
         {
           const auto row = std::as_const(between).Row(y, z);
-          if (std::ranges::all_of(row, [](std::uint64_t word) { return word == 0; }))
+          if (ranges::all_of(row, [](std::uint64_t word) { return word == 0; }))
           {
             continue;
           }

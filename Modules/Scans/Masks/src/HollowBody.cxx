@@ -4,6 +4,7 @@
 #include "DenseBits.h"
 #include "EditedBits.h"
 #include "EnclosedShare.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeBits.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 
@@ -296,7 +297,7 @@ FindHollowBody(const VoxelShape &                  shape,
     halved = Halved(looked());
     factor *= 2;
   }
-  const auto   smallest = *std::ranges::min_element(weight);
+  const auto   smallest = *ranges::min_element(weight);
   const double own = static_cast<double>(shape.CountVoxels());
   const double atLeast = std::max(kLeastShare * own, 1.0);
   // With a voxel to spare for what rounds.

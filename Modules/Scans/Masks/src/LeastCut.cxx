@@ -1,5 +1,7 @@
 #include "LeastCut.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -172,7 +174,7 @@ LeastCut::Push(std::uint32_t from, std::uint64_t limit)
       {
         Flow(step, most);
       }
-      const auto full = std::ranges::find_if(way, [&](const Step & step) { return RoomOf(step) == 0; });
+      const auto full = ranges::find_if(way, [&](const Step & step) { return RoomOf(step) == 0; });
       half = full == way.end() ? from : full->half;
       way.erase(full, way.end());
       continue;

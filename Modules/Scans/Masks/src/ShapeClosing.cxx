@@ -4,6 +4,7 @@
 #include "BallDistances.h"
 #include "EditedBits.h"
 #include "voxelcore/Base/LengthText.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
 
@@ -48,7 +49,7 @@ AddEroded(const VoxelShape & dilated, const BallRows & ball, VoxelShape & shape,
       {
         continue;
       }
-      std::ranges::fill(row, ~std::uint64_t{ 0 });
+      ranges::fill(row, ~std::uint64_t{ 0 });
       for (std::size_t half = ball.ofHalfLength.size(); half-- > 0;)
       {
         if (half + 1 < ball.ofHalfLength.size())
@@ -116,7 +117,7 @@ BallOfDiameter(const GapWidth & width, const ImageGeometry & geometry)
     RefuseMillimetres(width.text);
   }
   const SpacingWeights weights = ComputeLatticeWeights(geometry);
-  const auto           smallest = static_cast<double>(*std::ranges::min_element(weights.weight));
+  const auto           smallest = static_cast<double>(*ranges::min_element(weights.weight));
   const double diameter = width.unit == SpatialUnit::Voxels ? width.value * smallest : width.value / weights.unit;
   if (diameter > 2.0 * kMostReach * smallest)
   {

@@ -1,6 +1,7 @@
 #include "voxelcore/Masks/ShapeEdits.h"
 
 #include "EditRecords.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeBits.h"
 #include "voxelcore/Shape/TouchingPieces.h"
 
@@ -75,7 +76,7 @@ RecordOf(const DepthSimplified & result,
                                static_cast<double>(change.cost) / kCostOfOneVoxel,
                                change.difference });
   }
-  std::ranges::stable_sort(record.changes, std::greater(), &EditRecord::Change::cost);
+  ranges::stable_sort(record.changes, std::greater(), &EditRecord::Change::cost);
   return record;
 }
 
@@ -523,7 +524,7 @@ DiagnoseLabels(std::vector<EditedLabel> &          labels,
                  one.diagnosis ? TouchingText(*one.diagnosis) : std::string());
   }
   TellTouching(touching, warnings);
-  TellNoise(labels, least.empty() ? 0 : std::ranges::min(least), warnings);
+  TellNoise(labels, least.empty() ? 0 : ranges::min(least), warnings);
   return warnings;
 }
 

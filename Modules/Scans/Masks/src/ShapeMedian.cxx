@@ -4,6 +4,7 @@
 
 #include "voxelcore/Base/CountBits.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 
 #include <algorithm>
@@ -123,7 +124,7 @@ MedianWidth
 ParseMedianWidth(const std::string & text)
 {
   MedianWidth width{ 0 };
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width.voxels);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), width.voxels);
   if (error != std::errc() || end != text.data() + text.size())
   {
     width.voxels = 0;

@@ -1,6 +1,7 @@
 #include "voxelcore/Masks/SliceHoles.h"
 
 #include "EditedBits.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 
@@ -88,7 +89,7 @@ SwappedYZ(const VoxelShape & shape)
     {
       for (std::int32_t z = 0; z < size[2]; ++z)
       {
-        std::ranges::copy(shape.Row(y, z), swapped.Row(z, y).begin());
+        ranges::copy(shape.Row(y, z), swapped.Row(z, y).begin());
       }
     }
   });

@@ -3,6 +3,7 @@
 #include "CandidateChoice.h"
 #include "CandidateGraph.h"
 #include "ChangeRefinement.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Shape/ShapeRuns.h"
 #include "SimpleFlips.h"
 
@@ -158,13 +159,13 @@ GroupChanges(const CandidateGraph & graph, const PaddedShape & changed, std::siz
       }
     }
   }
-  std::ranges::sort(cut);
+  ranges::sort(cut);
   for (const auto & [at, owner] : cut)
   {
     for (std::int32_t k = 14; k < 27; ++k) // half of the neighbours
     {
       const Voxel next{ at[0] + k / 9 - 1, at[1] + k / 3 % 3 - 1, at[2] + k % 3 - 1 };
-      const auto  found = std::ranges::lower_bound(cut, next, {}, [](const auto & one) { return one.first; });
+      const auto  found = ranges::lower_bound(cut, next, {}, [](const auto & one) { return one.first; });
       if (found != cut.end() && found->first == next)
       {
         together.Unite(owner, found->second);

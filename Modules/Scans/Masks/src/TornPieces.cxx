@@ -1,5 +1,6 @@
 #include "voxelcore/Masks/TornPieces.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/UnionFind.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
@@ -92,7 +93,7 @@ public:
           }
         }
       }
-      std::ranges::stable_sort(gaps, {}, &Gap::length);
+      ranges::stable_sort(gaps, {}, &Gap::length);
       UnionFind joined(m_Pieces.size());
       for (const Gap & gap : gaps)
       {
@@ -149,7 +150,7 @@ private:
       centre = AddScaled(centre, 1 / static_cast<double>(piece.voxels.size()), Place(voxel));
     }
     const auto farthest = [&](const Vector3 & from) {
-      return *std::ranges::max_element(piece.voxels, {}, [&](const Voxel & v) { return Distance(Place(v), from); });
+      return *ranges::max_element(piece.voxels, {}, [&](const Voxel & v) { return Distance(Place(v), from); });
     };
     piece.ends[0] = farthest(centre);
     piece.ends[1] = farthest(Place(piece.ends[0]));

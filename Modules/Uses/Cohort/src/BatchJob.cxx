@@ -1,9 +1,12 @@
 #include "voxelcore/Cohort/BatchJob.h"
 
 #include "CaseJob.h"
+#include "ChildProcess.h"
 #include "Scheduler.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/PlainText.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Cohort/CaseRecord.h"
 #include "voxelcore/Cohort/GatherCohort.h"
 #include "voxelcore/Jobs/DisplayTargets.h"
@@ -38,7 +41,7 @@ double
 NumberWithUnit(const std::string & option, const std::string & text, const std::array<Unit, N> & units)
 {
   double     value = 0;
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto read = from_chars(text.data(), text.data() + text.size(), value);
   const auto rest = std::string_view(read.ptr, static_cast<std::size_t>(text.data() + text.size() - read.ptr));
   for (const Unit & unit : units)
   {
@@ -61,7 +64,7 @@ CountFrom(const ParameterValues & values, std::string_view name, std::size_t mos
 {
   const std::string text = ValueOf(values, CommandId::Batch, name);
   std::size_t       value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value > most)
   {
     throw UsageError("--" + std::string(name) + " " + text + ": expected a whole number from 0 to " +
@@ -307,6 +310,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     result.passedOver = std::move(passedOver);
     return result;
   }
+  RequireChildProcesses();
   MakeOutput(options);
   result = Scheduler(options, cases, context).Run();
   if (!options.only)

@@ -1,6 +1,7 @@
 #include "CaseJob.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Cohort/CaseRecord.h"
 
@@ -22,7 +23,7 @@ namespace
 bool
 IsTaken(std::string_view name, CommandId command)
 {
-  return std::ranges::any_of(Parameters(), [&](const Parameter & parameter) {
+  return ranges::any_of(Parameters(), [&](const Parameter & parameter) {
     return parameter.name == name && BelongsTo(parameter, command);
   });
 }
@@ -101,7 +102,7 @@ Understand(CaseJob & job, ParameterValues given, CommandId command)
 std::string
 CommandName(CommandId command)
 {
-  const auto found = std::ranges::find(Commands(), command, &Command::id);
+  const auto found = ranges::find(Commands(), command, &Command::id);
   return std::string(found->name);
 }
 

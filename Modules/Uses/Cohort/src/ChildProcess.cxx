@@ -1,6 +1,7 @@
 #include "ChildProcess.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Cohort/Admission.h"
 
 #include <array>
@@ -81,6 +82,10 @@ Close(int & descriptor)
 
 } // namespace
 
+void
+RequireChildProcesses()
+{}
+
 ChildProcess::ChildProcess(const std::vector<std::string> & arguments, int lock)
 {
   std::array<int, 2> channel{ -1, -1 };
@@ -157,7 +162,7 @@ ChildProcess::TakeRequest()
     }
     return std::nullopt;
   }
-  std::from_chars(text.data(), text.data() + count, megabytes);
+  from_chars(text.data(), text.data() + count, megabytes);
   return megabytes;
 }
 
@@ -201,7 +206,7 @@ AdmissionFromEnvironment(std::function<bool()> stop)
     return {};
   }
   const char * end = text + std::strlen(text);
-  const auto   read = std::from_chars(text, end, channel);
+  const auto   read = from_chars(text, end, channel);
   if (read.ec != std::errc() || read.ptr != end)
   {
     return {};

@@ -18,6 +18,10 @@ struct ChildEnd
   double      seconds = 0;
 };
 
+/** \throws UsageError where no processes can be started at all */
+void
+RequireChildProcesses();
+
 class ChildProcess
 {
 public:

@@ -2,6 +2,7 @@
 
 #include "CohortPageText.h"
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Report/CoreReport.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ ColumnsOf(const std::vector<PageCase> & cases)
   {
     const std::string_view key = column.key;
     const bool             isOfOneCommand =
-      std::ranges::any_of(kOfOneCommand, [&](std::string_view prefix) { return key.starts_with(prefix); });
+      ranges::any_of(kOfOneCommand, [&](std::string_view prefix) { return key.starts_with(prefix); });
     if (isOfOneCommand && !HasColumn(cases, column.key) && !HasColumn(cases, InUnit(column.key, SpatialUnit::Voxels)))
     {
       continue; // no batch of it

@@ -5,6 +5,7 @@
 #include "CohortPage.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/JsonText.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Cohort/CaseRecord.h"
 #include "voxelcore/Jobs/OutputTransaction.h"
 #include "voxelcore/Report/CoreReport.h"
@@ -104,7 +105,7 @@ ReadReport(const fs::path & folder, const CaseRecord & record)
   const std::string name = folder.filename().string() + "_report.json";
   std::ifstream     file(folder / name, std::ios::binary);
   const std::string text{ std::istreambuf_iterator<char>(file), {} };
-  const auto        written = std::ranges::find(record.outputs, name, &RecordedFile::name);
+  const auto        written = ranges::find(record.outputs, name, &RecordedFile::name);
   return written != record.outputs.end() && written->sha256 == TextSha256(text)
            ? Json::parse(PlainJson(text), nullptr, false)
            : Json();

@@ -425,7 +425,7 @@ CapHoles(TriangleMesh & mesh)
         way.push_back(to);
         continue;
       }
-      cap({ met, way.end() });
+      cap(std::span(way).subspan(static_cast<std::size_t>(met - way.begin())));
       ++holes;
       way.erase(met + 1, way.end());
     }

@@ -3,6 +3,7 @@
 #include "voxelcore/Jobs/JobTools.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Models/SkeletonModel.h"
@@ -159,7 +160,7 @@ private:
   Parsed(const std::string & text, const char * expected) const
   {
     TValue value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
     {
       Fail("'" + Printable(text) + "' is no " + expected);

@@ -4,6 +4,7 @@
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Certified/Certified.h"
 #include "voxelcore/Imaging/GreyVolume.h"
@@ -338,7 +339,7 @@ TellRootsApart(LabelShape &             mask,
     (change.isFill ? topology.voxelsAdded : topology.voxelsRemoved) += change.voxels;
     topology.parts.push_back(std::move(one));
   }
-  std::ranges::stable_sort(topology.parts, std::ranges::greater{}, &RootsChange::cost);
+  ranges::stable_sort(topology.parts, ranges::greater{}, &RootsChange::cost);
   if (values)
   {
     CentreByValues(geometry, core, *values, roots, graph);

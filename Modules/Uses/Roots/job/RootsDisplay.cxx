@@ -1,6 +1,7 @@
 #include "RootsDisplay.h"
 
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Display/HtmlPage.h"
 #include "voxelcore/Display/LabelSurface.h"
@@ -98,9 +99,8 @@ ShownRadii(const RootModel & model, const RootAxis & axis, std::size_t first)
   for (std::size_t i = radii.size(); i-- > 0;)
   {
     const Vector3 &    place = model.graph.positions[axis.points[first + i]];
-    const ElementIndex nearest = std::ranges::min(parent.points, {}, [&](ElementIndex point) {
-      return Distance(place, model.graph.positions[point]);
-    });
+    const ElementIndex nearest =
+      ranges::min(parent.points, {}, [&](ElementIndex point) { return Distance(place, model.graph.positions[point]); });
     if (i + 1 < radii.size() && Distance(place, model.graph.positions[nearest]) < SectionRadii(model.graph)[nearest])
     {
       radii[i] = std::min(radii[i], radii[i + 1]);

@@ -1,5 +1,6 @@
 #include "voxelcore/Roots/RootsJob.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "RootsApart.h"
@@ -8,14 +9,15 @@
 #include "RootsScan.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Jobs/OutputNames.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
+#include <sys/stat.h>
 #include <utility>
 
 namespace voxelcore
@@ -74,12 +76,8 @@ CoreOptionsOf(const RootsOptions & options)
 std::string
 ModificationTime(const fs::path & path)
 {
-  std::error_code error;
-  const auto      time = fs::last_write_time(path, error);
-  const auto      seconds =
-    error ? std::time_t{ 0 }
-               : std::chrono::system_clock::to_time_t(
-              std::chrono::time_point_cast<std::chrono::system_clock::duration>(std::chrono::file_clock::to_sys(time)));
+  struct stat       status = {};
+  const std::time_t seconds = stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
   std::tm parts{};
   gmtime_r(&seconds, &parts);
   char text[32];
@@ -196,7 +194,7 @@ RecallContacts(const RootsTopology & topology, RootModel & model)
     for (RootAxis & axis : model.roots.axes)
     {
       axis.undecided =
-        axis.undecided || (meeting.undecided && std::ranges::any_of(axis.points, [&](ElementIndex point) {
+        axis.undecided || (meeting.undecided && ranges::any_of(axis.points, [&](ElementIndex point) {
                              return Distance(model.graph.positions[point], meeting.position) <= meeting.reach;
                            }));
     }
@@ -289,7 +287,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
                      " labels; choose one with --labels, or take all as one with --binary");
   }
   RootRules rules = options.rules;
-  rules.tornSlack = std::ranges::max(scan.volume.geometry.spacing);
+  rules.tornSlack = ranges::max(scan.volume.geometry.spacing);
   if (cuts)
   {
     result.topology = TellRootsApart(scan.edited.labels.front().label,
@@ -357,8 +355,8 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
   if (!torn.empty())
   {
     const LengthUnit unit = LengthUnit::For(result.model.traits.depth, result.model.unit);
-    result.notes.push_back(Counted(torn.size(), "gap", "gaps") + " of up to " + unit.Text(std::ranges::max(torn)) +
-                           " " + unit.Name() +
+    result.notes.push_back(Counted(torn.size(), "gap", "gaps") + " of up to " + unit.Text(ranges::max(torn)) + " " +
+                           unit.Name() +
                            " bridged, where two ends of a torn root face each other; the mask has them still");
   }
   if (!editing.edits.empty())

@@ -1,6 +1,7 @@
 #include "RootsScan.h"
 
 #include "voxelcore/Base/Text.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/ReadInput.h"
@@ -42,20 +43,20 @@ WallsBeside(const VoxelShape & shape, const CoreOptions & core, const ImageGeome
   {
     return shape;
   }
-  const GapWidth width{ reach / std::ranges::min(geometry.spacing), SpatialUnit::Voxels, "" };
+  const GapWidth width{ reach / ranges::min(geometry.spacing), SpatialUnit::Voxels, "" };
   BandValues     values(VoxelsAround(shape, BallOfDepth(width, geometry)));
   VisitGreyRows(core.scan, values.Band().Box(), core.reading, [&](auto y, auto z, std::span<const float> row) {
     values.SetRow(y, z, row);
   });
   const double       level = core.reading.threshold->first;
   std::vector<float> dark;
-  std::ranges::copy_if(values.All(), std::back_inserter(dark), [&](float value) { return value < level; });
+  ranges::copy_if(values.All(), std::back_inserter(dark), [&](float value) { return value < level; });
   if (dark.empty())
   {
     return shape;
   }
   const auto middle = dark.begin() + static_cast<std::ptrdiff_t>(dark.size() / 2);
-  std::ranges::nth_element(dark, middle);
+  ranges::nth_element(dark, middle);
   return KeepLargestComponents(AtLeast(shape, values, level, 0.5 * (*middle + level)), 1).shape;
 }
 
@@ -63,7 +64,7 @@ WallsBeside(const VoxelShape & shape, const CoreOptions & core, const ImageGeome
 std::uint64_t
 FillClefts(InputScan & volume, const CoreOptions & core)
 {
-  const double  reach = kCleftReach * std::ranges::max(volume.geometry.spacing);
+  const double  reach = kCleftReach * ranges::max(volume.geometry.spacing);
   std::uint64_t count = 0;
   for (LabelShape & label : volume.labels)
   {

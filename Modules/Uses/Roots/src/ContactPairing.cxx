@@ -4,6 +4,7 @@
 #include "RootNumbers.h"
 
 #include "voxelcore/Base/UnionFind.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <cmath>
@@ -190,7 +191,7 @@ private:
       }
       if (arriving.size() == 1)
       {
-        const auto heir = std::ranges::max_element(leaving, {}, [&](const BranchEnd & end) {
+        const auto heir = ranges::max_element(leaving, {}, [&](const BranchEnd & end) {
           return std::pair(beyond[end.branch].junctions, beyond[end.branch].length);
         });
         if (heir != leaving.end())
@@ -212,7 +213,7 @@ private:
           }
         }
       }
-      std::ranges::sort(pairs);
+      ranges::sort(pairs);
       for (const auto & [crooked, i, k] : pairs)
       {
         if (m_Partner[ArmOf(arriving[i])] == kNoRoot && m_Partner[ArmOf(leaving[k])] == kNoRoot)
@@ -288,7 +289,7 @@ private:
     {
       return;
     }
-    std::ranges::stable_sort(arriving, std::ranges::greater{}, [&](const BranchEnd & end) {
+    ranges::stable_sort(arriving, ranges::greater{}, [&](const BranchEnd & end) {
       return m_Branches.Radius(end.branch);
     });
     RootMeeting meeting;
@@ -326,7 +327,7 @@ private:
         meeting.pairs.push_back({ end.branch, partner / 2 });
       }
     }
-    std::ranges::transform(leaving, std::back_inserter(meeting.arms), &BranchEnd::branch);
+    ranges::transform(leaving, std::back_inserter(meeting.arms), &BranchEnd::branch);
     m_Pairing.meetings.push_back(meeting);
   }
 

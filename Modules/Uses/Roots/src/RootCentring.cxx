@@ -1,5 +1,6 @@
 #include "voxelcore/Roots/RootCentring.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/UnitVector.h"
 
 #include "voxelcore/Skeleton/CrossSections.h"
@@ -68,7 +69,7 @@ public:
           const auto found = m_Cells.find({ x, y, z });
           if (found != m_Cells.end())
           {
-            std::ranges::for_each(found->second, visit);
+            ranges::for_each(found->second, visit);
           }
         }
       }

@@ -1,6 +1,7 @@
 #include "RootChoice.h"
 
 #include "RootNumbers.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <limits>
@@ -91,7 +92,7 @@ HierarchyChoice::HierarchyChoice(const RootBranches &        branches,
       }
     }
   }
-  const auto tips = std::ranges::count(m_Arms, std::size_t{ 1 }, &std::vector<ElementIndex>::size);
+  const auto tips = ranges::count(m_Arms, std::size_t{ 1 }, &std::vector<ElementIndex>::size);
   m_Usual = total > 0 ? total / static_cast<double>(std::max<std::ptrdiff_t>(1, tips)) : 1;
 }
 
@@ -107,7 +108,7 @@ HierarchyChoice::FollowAll()
 {
   m_Roots.clear();
   m_Pairs = 0;
-  std::ranges::fill(m_RootOf, kNoRoot);
+  ranges::fill(m_RootOf, kNoRoot);
   for (ElementIndex branch = 0; branch < m_RootOf.size(); ++branch)
   {
     if (m_Pairing.inside[branch] || m_RootOf[branch] != kNoRoot)
@@ -333,7 +334,7 @@ HierarchyChoice::Roots()
   {
     roots.push_back(m_Roots[number]);
   }
-  std::ranges::copy_if(m_Roots, std::back_inserter(roots), [](const ChosenRoot & root) { return root.level < 0; });
+  ranges::copy_if(m_Roots, std::back_inserter(roots), [](const ChosenRoot & root) { return root.level < 0; });
   return roots;
 }
 

@@ -178,7 +178,7 @@ private:
       const double radius = strands[k].radius;
       for (std::size_t first = 0; first == 0 ? !line.empty() : first + 1 < line.size(); first += kTogether)
       {
-        const std::span part(line.begin() + first, std::min(kTogether + 1, line.size() - first));
+        const std::span part(line.data() + first, std::min(kTogether + 1, line.size() - first));
         visit(Around(part, kWithin * radius), [&](std::size_t at, const std::array<std::int32_t, 3> & v) {
           if (m_Shape.Contains(v[0], v[1], v[2]))
           {

@@ -4,6 +4,7 @@
 #include "RootWhorls.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/BranchTable.h"
 
 #include <algorithm>
@@ -114,7 +115,7 @@ private:
     };
     if (m_Axes[axis].parent == kNoRoot && away(points.back()) < away(points.front()))
     {
-      std::ranges::reverse(points);
+      ranges::reverse(points);
       for (RootAxis & child : m_Axes)
       {
         child.parentPoint = child.parent == axis ? points.size() - 1 - child.parentPoint : child.parentPoint;
@@ -209,7 +210,7 @@ private:
       axis.stem = stem;
       axis.children = 0;
     }
-    if (count > 0 && std::ranges::all_of(m_IsGone, [](char gone) { return gone != 0; }))
+    if (count > 0 && ranges::all_of(m_IsGone, [](char gone) { return gone != 0; }))
     {
       throw UsageError("the edits remove all roots");
     }
@@ -307,7 +308,7 @@ ParseRootEdit(const std::string & text)
       RootEdit           edit{ 0, kind };
       const char * const end = plain.data() + plain.size();
       const char * const from = plain.data() + std::min(plain.find_first_not_of(' ', start.size()), plain.size());
-      const auto [at, error] = std::from_chars(from, end, edit.other);
+      const auto [at, error] = from_chars(from, end, edit.other);
       if (error == std::errc() && at == end && edit.other != kNoRoot)
       {
         return edit;

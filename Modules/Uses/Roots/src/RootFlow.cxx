@@ -2,6 +2,7 @@
 
 #include "RootNumbers.h"
 #include "voxelcore/Skeleton/UnitVector.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,7 @@ RootBranches::DirectionFrom(const BranchEnd & end, double skip) const
       for (const BranchEnd & other : EndsAt(HubOf(far)))
       {
         const bool isNew =
-          std::ranges::none_of(pieces, [&](const BranchEnd & piece) { return piece.branch == other.branch; });
+          ranges::none_of(pieces, [&](const BranchEnd & piece) { return piece.branch == other.branch; });
         if (isNew && HubOf(other.Other()) != HubOf(end) && (!next || m_Radius[other.branch] > m_Radius[next->branch]))
         {
           next = other;

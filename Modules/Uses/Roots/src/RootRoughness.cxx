@@ -1,5 +1,6 @@
 #include "voxelcore/Roots/RootRoughness.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/BranchTable.h"
 #include "voxelcore/VoxelCore/BallTree.h"
 
@@ -97,7 +98,7 @@ RootRoughness(const VoxelShape &    shape,
     }
   }
   std::vector<double> ofRoot(away.size());
-  std::ranges::transform(away, ofRoot.begin(), Scatter);
+  ranges::transform(away, ofRoot.begin(), Scatter);
   std::vector<double> roughness(rootAt.size(), 0);
   for (std::size_t point = 0; point < roughness.size(); ++point)
   {

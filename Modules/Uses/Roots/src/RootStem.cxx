@@ -3,6 +3,7 @@
 #include "RootNumbers.h"
 #include "voxelcore/Skeleton/UnitVector.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/UnionFind.h"
 
 #include <algorithm>
@@ -39,9 +40,7 @@ public:
     }
     std::vector<ElementIndex> order(m_Worth.size());
     std::iota(order.begin(), order.end(), ElementIndex{ 0 });
-    std::ranges::stable_sort(order, std::ranges::greater{}, [&](ElementIndex branch) {
-      return branches.Radius(branch);
-    });
+    ranges::stable_sort(order, ranges::greater{}, [&](ElementIndex branch) { return branches.Radius(branch); });
     UnionFind sets(branches.HubCount());
     for (const ElementIndex branch : order)
     {
@@ -89,12 +88,12 @@ public:
         break;
       }
     }
-    std::ranges::reverse(way);
+    ranges::reverse(way);
     Extend(way);
     if (Height(way.back().Other()) > Height(way.front()))
     {
-      std::ranges::reverse(way);
-      std::ranges::transform(way, way.begin(), [](const BranchEnd & end) { return end.Other(); });
+      ranges::reverse(way);
+      ranges::transform(way, way.begin(), [](const BranchEnd & end) { return end.Other(); });
     }
     return Take(way);
   }

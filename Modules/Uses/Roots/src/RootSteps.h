@@ -1,6 +1,7 @@
 #pragma once
 // The steps of roots from point to point, by their ends.
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Roots/RootHierarchy.h"
 
 #include <algorithm>
@@ -24,7 +25,7 @@ public:
         m_Steps.push_back({ std::minmax(points[i - 1], points[i]), axis });
       }
     }
-    std::ranges::sort(m_Steps);
+    ranges::sort(m_Steps);
   }
 
   /** The first root that has a step; kNoRoot for none. */
@@ -32,7 +33,7 @@ public:
   OwnerOf(ElementIndex a, ElementIndex b) const
   {
     const Ends ends = std::minmax(a, b);
-    const auto found = std::ranges::lower_bound(m_Steps, std::pair(ends, ElementIndex{ 0 }));
+    const auto found = ranges::lower_bound(m_Steps, std::pair(ends, ElementIndex{ 0 }));
     return found != m_Steps.end() && found->first == ends ? found->second : kNoRoot;
   }
 
@@ -41,7 +42,7 @@ public:
   Count(ElementIndex a, ElementIndex b) const
   {
     const Ends ends = std::minmax(a, b);
-    return std::ranges::equal_range(m_Steps, ends, {}, &std::pair<Ends, ElementIndex>::first).size();
+    return ranges::equal_range(m_Steps, ends, {}, &std::pair<Ends, ElementIndex>::first).size();
   }
 
   /** Of a branch, by its middle step. */

@@ -1,6 +1,7 @@
 #include "RootWhorls.h"
 
 #include "voxelcore/Skeleton/BranchTable.h"
+#include "voxelcore/Base/Library.h"
 
 #include <algorithm>
 #include <limits>
@@ -81,7 +82,7 @@ SortByLevel(RootHierarchy & roots)
 {
   std::vector<ElementIndex> order(roots.axes.size());
   std::iota(order.begin(), order.end(), ElementIndex{ 0 });
-  std::ranges::stable_sort(order, {}, [&](ElementIndex axis) { return roots.axes[axis].level; });
+  ranges::stable_sort(order, {}, [&](ElementIndex axis) { return roots.axes[axis].level; });
   std::vector<ElementIndex> place(order.size());
   std::vector<RootAxis>     sorted;
   for (ElementIndex i = 0; i < order.size(); ++i)

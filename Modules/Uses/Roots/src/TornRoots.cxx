@@ -1,5 +1,6 @@
 #include "voxelcore/Skeleton/UnitVector.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Roots/RootHierarchy.h"
 
 #include <algorithm>
@@ -68,7 +69,7 @@ SideBefore(const SkeletonGraph & graph, const TornEnd & end, double slice)
   const auto             shareNode = [&](ElementIndex a, ElementIndex b) {
     const auto & one = graph.branchNodes[a];
     const auto & other = graph.branchNodes[b];
-    return std::ranges::any_of(one, [&](auto node) { return std::ranges::find(other, node) != other.end(); });
+    return ranges::any_of(one, [&](auto node) { return ranges::find(other, node) != other.end(); });
   };
   for (ElementIndex branch = 0; branch < graph.BranchCount(); ++branch)
   {
@@ -141,7 +142,7 @@ JoinTornRoots(SkeletonGraph & graph, const RootRules & rules)
       }
     }
   }
-  std::ranges::stable_sort(gaps, {}, &Gap::length);
+  ranges::stable_sort(gaps, {}, &Gap::length);
   std::vector<char>                      isUsed(ends.size(), 0);
   std::vector<double>                    result;
   std::vector<std::vector<ElementIndex>> lines;
@@ -172,7 +173,7 @@ JoinTornRoots(SkeletonGraph & graph, const RootRules & rules)
       const auto points = graph.Branch(branch);
       auto &     at = splits[branch];
       at.push_back(points.size() - 1);
-      std::ranges::sort(at);
+      ranges::sort(at);
       at.erase(std::unique(at.begin(), at.end()), at.end());
       std::size_t from = 0;
       for (const std::size_t to : at)

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/JobTools.h"

@@ -9,6 +9,7 @@
 #include "ThicknessSteps.h"
 #include "ThicknessTargets.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/CostModel.h"

@@ -3,6 +3,7 @@
 #include "SquareTree.h"
 #include "TilePainter.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/StagePlan.h"
 
@@ -68,7 +69,7 @@ public:
     order.reserve(m_Begin[tile + 1] - m_Begin[tile]);
     for (std::size_t i = m_Begin[tile]; i < m_Begin[tile + 1]; ++i)
     {
-      const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(m_Balls.value[m_Indices[i]]));
+      const auto bits = bit_cast<std::uint32_t>(static_cast<float>(m_Balls.value[m_Indices[i]]));
       order.push_back(std::uint64_t{ ~bits } << 32U | m_Indices[i]);
     }
     std::sort(order.begin(), order.end());

@@ -1,5 +1,6 @@
 #include "voxelcore/Vessels/StraightenJob.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
 
@@ -110,8 +111,8 @@ ChosenWay(const SkeletonGraph & graph, const StraightenOptions & options)
 PlaneGrid
 GridAround(const SkeletonWay & way, const Vector3 & spacing, const StraightenOptions & options, const Vector3 & ofScan)
 {
-  const double least = *std::ranges::min_element(ofScan);
-  double       width = kRadii * *std::ranges::max_element(way.radius);
+  const double least = *ranges::min_element(ofScan);
+  double       width = kRadii * *ranges::max_element(way.radius);
   if (options.width)
   {
     width = options.width->value * (options.width->unit == Lambda::Unit::Voxel ? least : 1);
@@ -149,7 +150,7 @@ HoldsLabels(const fs::path & scan, ReadOptions reading)
 bool
 AreWhole(std::span<const float> values)
 {
-  return std::ranges::all_of(values, [](float value) { return value >= 0 && value == std::floor(value); });
+  return ranges::all_of(values, [](float value) { return value >= 0 && value == std::floor(value); });
 }
 
 /** Planes of the volume, some at a time side by side. */
@@ -231,7 +232,7 @@ MapPoints(const fs::path & path, std::span<const AxisPlane> planes, const ImageG
   constexpr std::array<const char *, 3> ofScan{ "x", "y", "z" };
   constexpr std::array<const char *, 3> ofVolume{ "across", "up", "arc_length" };
   const auto                            has = [&](const auto & names) {
-    return std::ranges::all_of(names, [&](const char * name) { return columns.contains(name); });
+    return ranges::all_of(names, [&](const char * name) { return columns.contains(name); });
   };
   const bool isOfScan = has(ofScan);
   if (isOfScan == has(ofVolume))
@@ -339,7 +340,7 @@ RunStraightenJob(const StraightenOptions & options, const JobContext & given)
   {
     RequireLengthIn(scan.unit, *options.width);
   }
-  const double  least = *std::ranges::min_element(scan.spacing);
+  const double  least = *ranges::min_element(scan.spacing);
   const Vector3 spacing = options.spacing.value_or(Vector3{ least, least, least });
   if (!(WayLength(way) / spacing[2] < kMostPlanes))
   {
@@ -363,7 +364,7 @@ RunStraightenJob(const StraightenOptions & options, const JobContext & given)
   const GreyVolume grey =
     ReadGreyVolume(options.scan, box, options.reading, PartOfProgress(context.progress, "reading", 0.1, 0.5));
   const auto outside = static_cast<float>(options.outside);
-  if (!result.isLinear && std::ranges::any_of(grey.values, [](float value) { return std::abs(value) >= kWhole; }))
+  if (!result.isLinear && ranges::any_of(grey.values, [](float value) { return std::abs(value) >= kWhole; }))
   {
     throw InputError(options.scan.string() +
                      ": has values of 16777216 or more, which would be rounded; number its "
@@ -375,7 +376,7 @@ RunStraightenJob(const StraightenOptions & options, const JobContext & given)
   const auto  fill = [&](std::int64_t k, auto slice) {
     const auto of = planes.Of(static_cast<std::size_t>(k));
     using Value = typename decltype(slice)::value_type;
-    std::ranges::transform(of, slice.begin(), [](float value) { return static_cast<Value>(value); });
+    ranges::transform(of, slice.begin(), [](float value) { return static_cast<Value>(value); });
     ReportProgress(context.progress,
                    "writing",
                    0.5 + 0.2 * static_cast<double>(k + 1) / static_cast<double>(result.geometry.size[2]));

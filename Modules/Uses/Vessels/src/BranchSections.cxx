@@ -4,6 +4,7 @@
 #include "NearestBranch.h"
 #include "PlaneContours.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ public:
   At(std::size_t branch, double arc) const
   {
     const DenseBranch & line = (*m_Branches)[branch];
-    const auto          after = std::ranges::lower_bound(line.arc, arc);
+    const auto          after = ranges::lower_bound(line.arc, arc);
     const auto          last =
       static_cast<std::size_t>(std::min<std::ptrdiff_t>(std::max<std::ptrdiff_t>(after - line.arc.begin(), 1),
                                                         static_cast<std::ptrdiff_t>(line.arc.size()) - 1));
@@ -153,10 +154,13 @@ Measure(const SectionBody &   body,
   const ImageGeometry & geometry = body.geometry;
   const auto toLps = [&](const Vector3 & place) { return LatticeToPhysical(geometry, Over(place, geometry.spacing)); };
   auto       lines = PlaneContours(sides, astray);
-  for (Vector2 & at : lines | std::views::join)
+  for (auto & line : lines)
   {
-    const Vector3 way = Minus(sides.Place(at), plane.origin);
-    at = { Dot(way, plane.across[0]), Dot(way, plane.across[1]) };
+    for (Vector2 & at : line)
+    {
+      const Vector3 way = Minus(sides.Place(at), plane.origin);
+      at = { Dot(way, plane.across[0]), Dot(way, plane.across[1]) };
+    }
   }
   section.place = toLps(plane.origin);
   section.axis = TurnedToLps(geometry, plane.axis);

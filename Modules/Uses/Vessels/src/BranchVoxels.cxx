@@ -2,6 +2,7 @@
 
 #include "NearestBranch.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ VoxelsAlong(const VoxelShape & shape, const Vector3 & from, const Vector3 & to)
       cuts.push_back(std::clamp((plane - from[k]) / way[k], 0.0, 1.0));
     }
   }
-  std::ranges::sort(cuts);
+  ranges::sort(cuts);
   std::vector<Voxel> voxels;
   for (std::size_t i = 1; i < cuts.size(); ++i)
   {

@@ -1,5 +1,6 @@
 #include "voxelcore/Vessels/Centerlines.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/UnionFind.h"
 
 #include <algorithm>
@@ -77,7 +78,7 @@ struct Path
   Ball
   At(double along) const
   {
-    const auto        after = std::ranges::upper_bound(arc, along);
+    const auto        after = ranges::upper_bound(arc, along);
     const std::size_t last = std::clamp<std::size_t>(static_cast<std::size_t>(after - arc.begin()), 1, arc.size() - 1);
     const double      length = arc[last] - arc[last - 1];
     return Between(balls[last - 1],
@@ -112,7 +113,7 @@ public:
     }
     for (auto & nodes : m_Leading)
     {
-      std::ranges::sort(nodes, {}, [&](ElementIndex node) { return tree.into[node]; });
+      ranges::sort(nodes, {}, [&](ElementIndex node) { return tree.into[node]; });
     }
   }
 
@@ -137,8 +138,7 @@ public:
       }
     }
     std::map<std::pair<bool, ElementIndex>, std::int64_t> groups;
-    const std::int64_t                                    firstGroup =
-      tracts.empty() ? 0 : 1 + std::ranges::max(tracts, {}, &CenterlineTract::group).group;
+    const std::int64_t firstGroup = tracts.empty() ? 0 : 1 + ranges::max(tracts, {}, &CenterlineTract::group).group;
     const std::int64_t firstLine = tracts.empty() ? 0 : tracts.back().centerline + 1;
     for (std::size_t i = 0; i < paths.size(); ++i)
     {
@@ -197,7 +197,7 @@ private:
     }
     if (m_Graph.branchNodes[branch][1] != node)
     {
-      std::ranges::reverse(balls);
+      ranges::reverse(balls);
     }
     return balls;
   }
@@ -211,8 +211,8 @@ private:
       path.nodes.push_back(node);
       path.branches.push_back(m_Tree.into[node]);
     }
-    std::ranges::reverse(path.nodes);
-    std::ranges::reverse(path.branches);
+    ranges::reverse(path.nodes);
+    ranges::reverse(path.branches);
     for (const ElementIndex node : path.nodes)
     {
       for (const Ball & ball : BallsInto(node))
@@ -291,7 +291,7 @@ private:
   Leaves(const Path & path, std::size_t first, const std::vector<TubePiece> & tubes)
   {
     const auto isOut = [&](const Vector3 & place) {
-      return std::ranges::none_of(tubes, [&](const TubePiece & piece) { return piece.Holds(place); });
+      return ranges::none_of(tubes, [&](const TubePiece & piece) { return piece.Holds(place); });
     };
     for (std::size_t i = first + 1; i < path.balls.size(); ++i)
     {

@@ -1,5 +1,7 @@
 #include "voxelcore/Vessels/FlowNetwork.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -30,7 +32,7 @@ MakeFlowNetwork(const std::vector<MeasuredSkeleton> & parts, const std::vector<s
       if (isNew)
       {
         const ElementIndex point = graph.nodePoints[node];
-        const bool         isInlet = std::ranges::binary_search(inlets[part], node);
+        const bool         isInlet = ranges::binary_search(inlets[part], node);
         const bool         isTip = graph.nodeKinds[node] == NodeKind::Tip;
         network.nodes.push_back({ isInlet ? FlowNodeKind::Inlet
                                                            : isTip ? FlowNodeKind::Outlet
@@ -46,7 +48,7 @@ MakeFlowNetwork(const std::vector<MeasuredSkeleton> & parts, const std::vector<s
       const auto points = graph.Branch(branch);
       auto [from, to] = graph.branchNodes[branch];
       if (graph.nodeKinds[from] == NodeKind::Loop ||
-          std::ranges::any_of(points, [&](ElementIndex point) { return !(radius[point] > 0); }))
+          ranges::any_of(points, [&](ElementIndex point) { return !(radius[point] > 0); }))
       {
         continue;
       }

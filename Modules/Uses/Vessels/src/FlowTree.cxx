@@ -2,6 +2,7 @@
 
 #include "BorderPlaces.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/LoopClosers.h"
 
 #include <algorithm>
@@ -122,8 +123,8 @@ FindInlets(const std::vector<MeasuredSkeleton> & parts, const InletChoice & choi
   for (std::size_t part = 0; part < parts.size(); ++part)
   {
     AddThickest(parts[part], choice, inlets[part]);
-    std::ranges::sort(inlets[part]);
-    inlets[part].erase(std::ranges::unique(inlets[part]).begin(), inlets[part].end());
+    ranges::sort(inlets[part]);
+    inlets[part].erase(ranges::unique(inlets[part]).begin(), inlets[part].end());
   }
   return inlets;
 }

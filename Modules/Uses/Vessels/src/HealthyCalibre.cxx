@@ -1,5 +1,7 @@
 #include "HealthyCalibre.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -100,7 +102,7 @@ Trimmed(const Fitted & fitted, const Line & line)
   TrimmedFit fit;
   fit.near.resize(distance.size());
   std::iota(fit.near.begin(), fit.near.end(), std::size_t{ 0 });
-  std::ranges::stable_sort(fit.near, {}, [&](std::size_t i) { return distance[i]; });
+  ranges::stable_sort(fit.near, {}, [&](std::size_t i) { return distance[i]; });
   const double half = kHalf * std::accumulate(fitted.weight.begin(), fitted.weight.end(), 0.0);
   double       weight = 0;
   double       squares = 0;
@@ -135,7 +137,7 @@ FitHealthyCalibre(const CalibreAlong & along)
   const Fitted        fitted{ along.arc, along.diameter, LengthsOf(along.arc) };
   std::vector<double> sorted = along.diameter;
   const auto          middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
+  ranges::nth_element(sorted, middle);
   if (along.arc.back() - along.arc.front() < kLeastDiameters * *middle)
   {
     return std::nullopt;

@@ -1,5 +1,7 @@
 #include "PlaneContours.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -229,7 +231,7 @@ Length2(const Vector2 & a)
 std::vector<Vector2>
 HullOf(std::vector<Vector2> points)
 {
-  std::ranges::sort(points);
+  ranges::sort(points);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3)
   {

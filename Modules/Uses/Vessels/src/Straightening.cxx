@@ -1,6 +1,7 @@
 #include "voxelcore/Vessels/Straightening.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Skeleton/PolynomialFit.h"
@@ -48,7 +49,7 @@ struct Line
   std::size_t
   PieceAt(double along) const
   {
-    const auto after = std::ranges::lower_bound(arc, along) - arc.begin();
+    const auto after = ranges::lower_bound(arc, along) - arc.begin();
     return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(arc) - 1)) - 1;
   }
 
@@ -180,7 +181,7 @@ PiecesBetween(const SkeletonGraph & graph, const std::vector<Line> & lines, std:
         cuts.emplace_back(places[i].arc, graph.nodePoints.size() + i);
       }
     }
-    std::ranges::sort(cuts);
+    ranges::sort(cuts);
     cuts.emplace_back(lines[branch].arc.back(), graph.branchNodes[branch][1]);
     std::pair<double, std::size_t> from(0, graph.branchNodes[branch][0]);
     for (const auto & to : cuts)
@@ -478,7 +479,7 @@ StraightenWay(const SkeletonWay & way, double side, double step)
   axis.length = arc.back();
   const double perArc = curve.Parameter(curve.Count()) / axis.length;
   const auto   parameterAt = [&](double along) {
-    const auto   after = std::ranges::lower_bound(arc, along) - arc.begin();
+    const auto   after = ranges::lower_bound(arc, along) - arc.begin();
     const auto   i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(arc) - 1));
     const double t = (along - arc[i - 1]) / (arc[i] - arc[i - 1]);
     return (1 - t) * curve.Parameter(i - 1) + t * curve.Parameter(i);
@@ -533,7 +534,7 @@ StraightenWay(const SkeletonWay & way, double side, double step)
   const std::vector<double> wayArc = LineOf(way).arc;
   for (AxisPlane & plane : axis.planes)
   {
-    const auto i = std::ranges::lower_bound(wayArc, parameterAt(plane.arc)) - wayArc.begin();
+    const auto i = ranges::lower_bound(wayArc, parameterAt(plane.arc)) - wayArc.begin();
     plane.branch = way.branches[static_cast<std::size_t>(std::min<std::ptrdiff_t>(i, std::ssize(wayArc) - 1))];
   }
   return axis;
@@ -546,7 +547,7 @@ FromStraight(std::span<const AxisPlane> planes, const Vector3 & straight)
   {
     return AddScaled(AddScaled(planes[0].place, straight[0], planes[0].across), straight[1], planes[0].up);
   }
-  const auto      after = std::ranges::lower_bound(planes, straight[2], {}, &AxisPlane::arc) - planes.begin();
+  const auto      after = ranges::lower_bound(planes, straight[2], {}, &AxisPlane::arc) - planes.begin();
   const auto      i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after, 1, std::ssize(planes) - 1)) - 1;
   const AxisPlane plane = PlaneAt(planes, i, (straight[2] - planes[i].arc) / (planes[i + 1].arc - planes[i].arc));
   return AddScaled(AddScaled(plane.place, straight[0], plane.across), straight[1], plane.up);
@@ -623,7 +624,7 @@ VoxelsAt(std::span<const AxisPlane> planes, const PlaneGrid & grid, const ImageG
     box.lower[k] = static_cast<std::int32_t>(first);
     box.size[k] = static_cast<std::int32_t>(std::max(0.0, end - first));
   }
-  return std::ranges::count(box.size, 0) > 0 ? VoxelBox() : box;
+  return ranges::count(box.size, 0) > 0 ? VoxelBox() : box;
 }
 
 void

@@ -2,6 +2,7 @@
 
 #include "HealthyCalibre.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Skeleton/DomeBranches.h"
 
@@ -56,8 +57,8 @@ CalibresOf(const SkeletonGraph &           graph,
   {
     const Vector3 & place = graph.positions[points[i]];
     of.length += i > 0 ? Distance(place, graph.positions[points[i - 1]]) : 0;
-    const auto behind = std::ranges::lower_bound(sections, of.length, {}, &BranchSection::arc);
-    const bool isBesideDome = std::ranges::any_of(domes, [&](const DomeBranch & dome) {
+    const auto behind = ranges::lower_bound(sections, of.length, {}, &BranchSection::arc);
+    const bool isBesideDome = ranges::any_of(domes, [&](const DomeBranch & dome) {
       return Distance(place, graph.positions[dome.greatest]) <
              graph.radius[dome.greatest] + graph.radius[points[i]] + diagonal;
     });
@@ -139,7 +140,7 @@ private:
     const auto leadsOn = [&](std::size_t side) {
       const ElementIndex node = m_Graph.branchNodes[m_Branch][side];
       return kind == LesionKind::Stenosis && m_Graph.nodeKinds[node] != NodeKind::Tip &&
-             std::ranges::find(m_Domes, node, &DomeBranch::node) == m_Domes.end();
+             ranges::find(m_Domes, node, &DomeBranch::node) == m_Domes.end();
     };
     const std::size_t count = m_Calibres.places.size();
     return (first > 0 ? m_Calibres.isFirst[first] == 0 : leadsOn(0)) &&
@@ -216,7 +217,7 @@ public:
   double
   Volume(double height) const
   {
-    const auto end = std::ranges::upper_bound(m_Levels, height, std::ranges::greater());
+    const auto end = ranges::upper_bound(m_Levels, height, ranges::greater());
     return static_cast<double>(end - m_Levels.begin()) * m_VoxelVolume;
   }
 
@@ -289,7 +290,7 @@ private:
       {
         if (level == m_Middle)
         {
-          std::ranges::sort(m_Levels, std::ranges::greater());
+          ranges::sort(m_Levels, ranges::greater());
         }
         level = height;
         if (level < m_Vessel || static_cast<double>(m_Levels.size()) - Volume(level + m_Thick) / m_VoxelVolume > most)
@@ -378,10 +379,8 @@ AcrossVessel(const std::vector<Vector3> & vessel, const Vector3 & middle)
   const Vector3 & foot = vessel.front();
   const Vector3   way = Minus(middle, foot);
   // The two places farthest from each other, one of which is farthest from the foot.
-  const Vector3 one =
-    *std::ranges::max_element(vessel, {}, [&](const Vector3 & place) { return Distance(place, foot); });
-  const Vector3 other =
-    *std::ranges::max_element(vessel, {}, [&](const Vector3 & place) { return Distance(place, one); });
+  const Vector3 one = *ranges::max_element(vessel, {}, [&](const Vector3 & place) { return Distance(place, foot); });
+  const Vector3 other = *ranges::max_element(vessel, {}, [&](const Vector3 & place) { return Distance(place, one); });
   const Vector3 chord = Minus(other, one);
   // Between two branches of a fork, domes continue the stem.
   constexpr double kStraight = 120;
@@ -403,7 +402,7 @@ MeasureDome(const SkeletonGraph & graph, const DomeBranch & dome, const SectionB
   }
   if (!isForward)
   {
-    std::ranges::reverse(line);
+    ranges::reverse(line);
   }
   const Vector3              foot = line.front();
   const Vector3              middle = graph.positions[dome.greatest];
@@ -463,9 +462,8 @@ std::vector<VesselLesion>
 FindLesions(const SkeletonGraph & graph, const std::vector<BranchSection> & sections, const SectionBody & body)
 {
   const auto of = [&](std::size_t branch) {
-    const auto range =
-      std::ranges::equal_range(sections, static_cast<ElementIndex>(branch), {}, &BranchSection::branch);
-    return std::span<const BranchSection>(range.begin(), range.end());
+    const auto range = ranges::equal_range(sections, static_cast<ElementIndex>(branch), {}, &BranchSection::branch);
+    return std::span(sections).subspan(static_cast<std::size_t>(range.begin() - sections.begin()), range.size());
   };
   std::vector<DomeBranch> domes = DomesOf(graph);
   std::erase_if(domes, [&](const DomeBranch & dome) {
@@ -479,7 +477,7 @@ FindLesions(const SkeletonGraph & graph, const std::vector<BranchSection> & sect
   std::vector<VesselLesion> lesions;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
-    const auto dome = std::ranges::find(domes, branch, &DomeBranch::branch);
+    const auto dome = ranges::find(domes, branch, &DomeBranch::branch);
     const auto before = static_cast<std::ptrdiff_t>(lesions.size());
     if (dome != domes.end())
     {

@@ -1,5 +1,6 @@
 #include "voxelcore/Vessels/FlowFiles.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/AppendedVtp.h"
 #include "voxelcore/Models/TableColumns.h"
 
@@ -95,7 +96,7 @@ OpenBfNumbers(const FlowNetwork & network)
 void
 RequireOpenBf(const FlowNetwork & network, const std::vector<NodeSegments> & at)
 {
-  const auto        inlets = std::ranges::count(network.nodes, FlowNodeKind::Inlet, &FlowNode::kind);
+  const auto        inlets = ranges::count(network.nodes, FlowNodeKind::Inlet, &FlowNode::kind);
   const std::string other = "; give a .csv file, or a .json file for svZeroDSolver";
   if (inlets != 1)
   {

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <future>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace voxelcore
@@ -28,6 +30,31 @@ ThisProcess();
  *  certain of nothing. */
 bool
 HasProcessEnded(std::int64_t process, std::uint64_t start);
+
+/** Whether threads can be started; a page's WebAssembly has one. */
+bool
+CanStartThreads();
+
+/** How std::async() does what can be done beside: in a thread, or, where there are none, when it is asked for. */
+inline std::launch
+Beside()
+{
+  return CanStartThreads() ? std::launch::async : std::launch::deferred;
+}
+
+/** The most memory this process has had resident, in 2^20 bytes. The portable half knows only what WebAssembly has, and
+ *  says 0 elsewhere. */
+double
+PeakMemoryMb();
+
+/** What the machine can give now, with a tenth kept back, MB of 1e6 bytes; none where it does not say. */
+std::optional<double>
+AvailableMemoryMb();
+
+/** Removes a file or an empty folder, `withContents` also what is in a folder and in folders in it. On Linux a signal
+ *  handler may call it. */
+void
+RemoveNow(const char * path, bool withContents);
 
 /** Gives memory of an array back to the system, as far as it fills large pages. Until it is written again it holds
  *  anything. Returns how many bytes from its beginning on are done with: the next piece begins there. The portable half

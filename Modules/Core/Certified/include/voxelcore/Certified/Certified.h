@@ -45,8 +45,8 @@ public:
   SurfaceSource() = default;
 
   template <typename TFunction>
-  requires(std::is_constructible_v<Function, TFunction> || std::is_constructible_v<OfShape, TFunction>) &&
-    (!std::is_same_v<std::remove_cvref_t<TFunction>, SurfaceSource>)
+  requires(!std::is_same_v<std::remove_cvref_t<TFunction>, SurfaceSource>) &&
+    (std::is_constructible_v<Function, TFunction> || std::is_constructible_v<OfShape, TFunction>)
       SurfaceSource(TFunction && source) // NOLINT(google-explicit-constructor): what is given is a function
   {
     if constexpr (std::is_constructible_v<Function, TFunction>)

@@ -2,6 +2,8 @@
 // Bits in bricks of one word along x and 8 x 8 rows. Bricks that are all out or all in are a pointer and nothing else,
 // so memory follows where bits change, not the box.
 
+#include "voxelcore/Base/Library.h"
+
 #include <array>
 #include <atomic>
 #include <cstddef>
@@ -348,7 +350,7 @@ public:
   Word *
   Writable(const Word *& brick)
   {
-    const Word * own = std::atomic_ref<const Word *>(brick).load(std::memory_order_acquire);
+    const Word * own = atomic_ref<const Word *>(brick).load(std::memory_order_acquire);
     return const_cast<Word *>(IsShared(own) ? MakeOwn(brick) : own);
   }
 
@@ -412,7 +414,7 @@ private:
 
 inline ShapeWord::operator std::uint64_t() const
 {
-  return std::atomic_ref<const std::uint64_t *>(*m_Brick).load(std::memory_order_acquire)[m_Place];
+  return atomic_ref<const std::uint64_t *>(*m_Brick).load(std::memory_order_acquire)[m_Place];
 }
 
 inline const ShapeWord &

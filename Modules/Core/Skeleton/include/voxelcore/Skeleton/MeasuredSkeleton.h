@@ -1,6 +1,7 @@
 #pragma once
 // A curve skeleton with its numbers: what is written and drawn.
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/BranchTable.h"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ struct SkeletonNetwork
   std::string
   NameOf(std::int64_t value) const
   {
-    const auto own = std::ranges::find(labels, value, &NetworkLabel::value);
+    const auto own = ranges::find(labels, value, &NetworkLabel::value);
     return own == labels.end() ? std::string() : own->name;
   }
 };

@@ -2,6 +2,7 @@
 // Files of text, written in large pieces.
 
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/OutputFile.h"
 
 #include <charconv>
@@ -45,12 +46,12 @@ public:
       {
         return *this;
       }
-      written = m_Digits ? std::to_chars(digits, last, number, std::chars_format::general, *m_Digits)
-                         : std::to_chars(digits, last, number);
+      written = m_Digits ? to_chars(digits, last, number, std::chars_format::general, *m_Digits)
+                         : to_chars(digits, last, number);
     }
     else
     {
-      written = std::to_chars(digits, last, number);
+      written = to_chars(digits, last, number);
     }
     return *this << std::string_view(digits, static_cast<std::size_t>(written.ptr - digits));
   }

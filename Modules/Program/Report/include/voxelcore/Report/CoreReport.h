@@ -191,12 +191,4 @@ LabelRecordJson(const LabelRecord & label, SpatialUnit unit);
 LabelRecord
 ParseLabelRecord(const std::string & json);
 
-/** The most memory this process has had resident, in 2^20 bytes. */
-double
-PeakMemoryMb();
-
-/** What the machine can give now, with a tenth kept back, MB of 1e6 bytes; none where it does not say. */
-std::optional<double>
-AvailableMemoryMb();
-
 } // namespace voxelcore

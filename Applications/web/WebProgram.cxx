@@ -1,0 +1,107 @@
+// What MainStack.cxx and Signals.cxx do elsewhere, and the table of options for a page's forms. Here the stack has its size from the start, and nothing but the page or
+// Node ends the program: it asks for that by Module.isCancelled().
+
+#include "../voxelcore/MainStack.h"
+#include "../voxelcore/Signals.h"
+#include "voxelcore/Options/Parameters.h"
+
+#include <emscripten.h>
+#include <nlohmann/json.hpp>
+
+namespace
+{
+
+const voxelcore::TemporaryRegistry * temporaries = nullptr;
+const char *                         leftBehind = nullptr;
+
+} // namespace
+
+EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["isCancelled"]() ? 1 : 0; });
+
+// {commands: [{name, description, footer}], options: [{name, flags, kind, placeholder, default, required, commands,
+// description, group}]}; the text lives as long as the program.
+extern "C" EMSCRIPTEN_KEEPALIVE const char *
+ParameterTable()
+{
+  using namespace voxelcore; // NOLINT: a door of the program
+  static const std::string text = [] {
+    constexpr const char * kinds[] = { "input", "inputs", "output", "text", "integer", "real", "choice", "flag" };
+    nlohmann::ordered_json table{ { "commands", nlohmann::json::array() }, { "options", nlohmann::json::array() } };
+    for (const Command & command : Commands())
+    {
+      table["commands"].push_back(
+        { { "name", command.name }, { "description", command.description }, { "footer", command.footer } });
+    }
+    for (const Parameter & parameter : Parameters())
+    {
+      std::vector<std::string> of;
+      for (const Command & command : Commands())
+      {
+        if (BelongsTo(parameter, command.id))
+        {
+          of.emplace_back(command.name);
+        }
+      }
+      table["options"].push_back({ { "name", parameter.name },
+                                   { "flags", parameter.flags },
+                                   { "kind", kinds[static_cast<int>(parameter.kind)] },
+                                   { "placeholder", parameter.placeholder },
+                                   { "default", parameter.defaultValue },
+                                   { "required", parameter.required },
+                                   { "commands", of },
+                                   { "description", parameter.description },
+                                   { "group", GroupHeading(parameter.group) } });
+    }
+    return table.dump();
+  }();
+  return text.c_str();
+}
+
+namespace voxelcore
+{
+
+void
+ReserveMainStack()
+{}
+
+int
+RunWithStack(const std::function<int()> & work)
+{
+  return work();
+}
+
+void
+HandleSignals(const TemporaryRegistry & registry, int)
+{
+  temporaries = &registry;
+}
+
+void
+SayThatIsLeft(const char * text)
+{
+  leftBehind = text;
+}
+
+const char *
+WhatIsLeft()
+{
+  return leftBehind != nullptr         ? leftBehind
+         : temporaries->HasCommitted() ? "the files that have their names are complete"
+                                       : "nothing was written";
+}
+
+void
+EndByItself()
+{}
+
+bool
+WasInterrupted()
+{
+  return IsCancelledByCaller() != 0;
+}
+
+void
+CallOffDeadline()
+{}
+
+} // namespace voxelcore

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Builds the program as WebAssembly and the npm package around it.
+# usage: build.sh [FOLDER]     FOLDER: where to build (build-web); FOLDER/package is the package, FOLDER/*.tgz it packed
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source_folder=$(cd "$here/../.." && pwd)
+mkdir -p "${1:-build-web}"
+build=$(cd "${1:-build-web}" && pwd)
+bash "$here/../install-packages.sh" web
+# shellcheck source=flags.sh
+source "$here/flags.sh"
+
+bash "$here/libraries.sh" "$build/libraries"
+emcmake cmake -S "$source_folder" -B "$build/program" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_CXX_FLAGS="${web_flags[*]} -isystem $build/libraries/include" -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG \
+  -DCMAKE_FIND_ROOT_PATH="$build/libraries" -DCMAKE_PREFIX_PATH=/ -DCMAKE_MODULE_PATH="$here/cmake" \
+  -DBoost_INCLUDE_DIR="$build/libraries/include" \
+  -DBUILD_TESTING=OFF -DVOXELCORE_INSTALL=OFF -DVOXELCORE_WERROR=ON -DVOXELCORE_VTK=OFF -DVOXELCORE_TETGEN=OFF \
+  -DVOXELCORE_PYTHON=OFF -DVOXELCORE_CCACHE=OFF >"$build/configure.log" || { cat "$build/configure.log" >&2; exit 1; }
+cmake --build "$build/program" --target voxelcore
+
+# The package: the program, JavaScript around it, and the licences of all that is in it.
+package=$build/package
+rm -rf "$package"
+mkdir -p "$package/licences"
+cp -r "$here/package/." "$package/"
+cp "$here/README.md" "$source_folder/LICENSE" "$package/"
+cp "$build/libraries/licences/"*.txt "$package/licences/"
+for name in libboost-dev libcli11-dev nlohmann-json3-dev emscripten; do
+  cp "/usr/share/doc/$name/copyright" "$package/licences/$name.txt"
+done
+cp "$build/program/bin/voxelcore.wasm" "$package/"
+{ cat "$build/program/bin/voxelcore.js"; echo 'export default createVoxelCore;'; } >"$package/voxelcore.js"
+version=$(sed -n 's/^project(VoxelCore VERSION \([0-9.]*\).*/\1/p' "$source_folder/CMakeLists.txt")
+sed -i "s/\"version\": \"0.0.0\"/\"version\": \"$version\"/" "$package/package.json"
+node "$here/types.js" "$package"
+(cd "$build" && npm pack --silent "$package" >packed && echo "$build/$(cat packed): $(stat -c %s "$(cat packed)") bytes")
