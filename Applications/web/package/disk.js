@@ -36,7 +36,8 @@ export function useDisk({ FS }, onTemporary) {
   };
   const streamOf = (descriptor, name, flags, node, fd) => {
     FS.streams[fd] = {
-      fd, descriptor, path: name, flags, node, position: 0, seekable: isSeekable(descriptor),
+      fd, descriptor, path: name, flags, node, position: 0,
+      seekable: descriptor > 2 && isSeekable(descriptor), // others write to the standard ones, too
       tty: tty.isatty(descriptor),
     };
     return FS.streams[fd];
@@ -78,7 +79,7 @@ export function useDisk({ FS }, onTemporary) {
       return streamOf(descriptor, name, flags, { ...nodeOf(name), mode: fs.fstatSync(descriptor).mode }, FS.nextfd());
     },
     close(stream) {
-      fs.closeSync(stream.descriptor);
+      if (stream.descriptor > 2) fs.closeSync(stream.descriptor); // the standard ones are the process's own
       FS.closeStream(stream.fd);
     },
     llseek(stream, offset, whence) {

@@ -4,7 +4,7 @@
 import { readTable, runProgram } from './engine.js';
 
 const isNode = typeof process === 'object' && process.versions?.node !== undefined;
-const port = isNode ? (await import('node:worker_threads')).parentPort : globalThis;
+let port = globalThis;
 
 async function run({ module, args, files }) {
   const onErrorLine = (line) => {
@@ -25,7 +25,11 @@ async function run({ module, args, files }) {
 }
 
 if (isNode) {
-  port.on('message', run);
+  Promise.all([import('node:worker_threads'), import('node:crypto')]).then(([{ parentPort }, { webcrypto }]) => {
+    globalThis.crypto ??= webcrypto; // Node 18 has it there only
+    port = parentPort;
+    port.on('message', run);
+  });
 } else {
   port.onmessage = ({ data }) => run(data);
 }

@@ -3,6 +3,7 @@
 #include "CertificateText.h"
 #include "PruneStages.h"
 #include "RefinedTolerances.h"
+#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Complex/ComplexTopology.h"
 #include "voxelcore/Lattice/Vectors.h"
@@ -32,7 +33,7 @@ RequireRefined(const RefinedCore & refined,
   moved.hairsRemoved = refined.hairsTaken;
   for (const Vector3 & d : refined.displacement)
   {
-    const double length = std::hypot(d[0], d[1], d[2]);
+    const double length = Hypot(d[0], d[1], d[2]);
     moved.maxDisplacement = std::max(moved.maxDisplacement, length);
     moved.meanDisplacement += length / static_cast<double>(refined.displacement.size());
   }

@@ -1,6 +1,7 @@
 #include "voxelcore/Lattice/CheckedGeometry.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Lattice/Vectors.h"
 
@@ -149,7 +150,7 @@ CheckedGeometry(const std::filesystem::path & image, const ImageGeometry & geome
   for (std::size_t axis = 0; axis < 3 && !orthonormalize; ++axis)
   {
     // In memory another length would be another spacing.
-    const double length = std::hypot(stated.axes[axis][0], stated.axes[axis][1], stated.axes[axis][2]);
+    const double length = Hypot(stated.axes[axis][0], stated.axes[axis][1], stated.axes[axis][2]);
     if (!(std::abs(length - 1) <= kOrthonormalTolerance))
     {
       RefuseInput(image,

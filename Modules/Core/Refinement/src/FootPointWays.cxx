@@ -2,6 +2,7 @@
 
 #include "FootPoints.h"
 
+#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ LeastOf(const std::array<Vector3, 2> & ways, const std::array<Vector3, 2> & made
   const double a = Dot(ways[0], made[0]);
   const double b = Dot(ways[1], made[1]);
   const double c = 0.5 * (Dot(ways[0], made[1]) + Dot(ways[1], made[0]));
-  return 0.5 * (a + b) - std::hypot(0.5 * (a - b), c);
+  return 0.5 * (a + b) - Hypot(0.5 * (a - b), c);
 }
 
 // A slide stretched along two directions: stretch(bend) by the bends of the distance along them.

@@ -1,5 +1,6 @@
 #include "voxelcore/Shape/BorderExtension.h"
 
+#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
 #include "voxelcore/Shape/LowerEnvelope.h"
 #include "voxelcore/Shape/ShapeBits.h"
@@ -484,8 +485,8 @@ private:
   double
   OffCentre(const std::array<std::int32_t, 2> & pixel, const std::array<std::int32_t, 2> & centre) const
   {
-    return std::hypot(0.5 * (2 * pixel[0] + 1 - centre[0]) * m_Spacing[m_Layer.axes[0]],
-                      0.5 * (2 * pixel[1] + 1 - centre[1]) * m_Spacing[m_Layer.axes[1]]);
+    return Hypot(0.5 * (2 * pixel[0] + 1 - centre[0]) * m_Spacing[m_Layer.axes[0]],
+                 0.5 * (2 * pixel[1] + 1 - centre[1]) * m_Spacing[m_Layer.axes[1]]);
   }
 
   /** How the centre of gravity of the section moves from layer to layer below the border, by regression, as far as its

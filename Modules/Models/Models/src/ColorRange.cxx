@@ -1,5 +1,6 @@
 #include "voxelcore/Models/ColorRange.h"
 
+#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/VoxelCore/PolygonArea.h"
 
@@ -37,7 +38,7 @@ public:
   {
     const auto & p = m_Positions[a];
     const auto & q = m_Positions[b];
-    const double half = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) / 2;
+    const double half = Hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) / 2;
     m_Weights[a] += half * m_Radius[a];
     m_Weights[b] += half * m_Radius[b];
   }

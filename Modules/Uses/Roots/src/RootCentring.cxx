@@ -1,5 +1,6 @@
 #include "voxelcore/Roots/RootCentring.h"
 
+#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Skeleton/UnitVector.h"
 
@@ -200,7 +201,7 @@ private:
     const Vector3 &             place = m_Places[point];
     const double                radius = Least(m_Radii[point]);
     const double                reach = radius + kBeyond * m_Slice;
-    const double                ball = std::hypot(reach, kAlong * m_Slice);
+    const double                ball = Hypot(reach, kAlong * m_Slice);
     const auto                  others = OthersNear(axis, place, reach);
     std::array<std::int32_t, 3> low{};
     std::array<std::int32_t, 3> high{};
