@@ -18,5 +18,5 @@ if [ $# -gt 0 ]; then
   exit
 fi
 nice cmake --build "$build"
-ctest --test-dir "$build" -LE "heavy|sanitizer|browser|package|cluster|fuzz" -j "$(nproc)" --timeout 3600 \
+ctest --test-dir "$build" -LE "heavy|sanitizer|browser|package|cluster|fuzz|web" -j "$(nproc)" --timeout 3600 \
   --output-on-failure --no-tests=error </dev/null

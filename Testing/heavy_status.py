@@ -24,7 +24,7 @@ import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LIST = f"{HERE}/heavy_status.tsv"
-LABELS = {"heavy", "sanitizer", "analysis", "portable", "browser", "package", "cluster", "fuzz"}
+LABELS = {"heavy", "sanitizer", "analysis", "portable", "browser", "package", "cluster", "fuzz", "web"}
 COLUMNS = ["name", "run", "commit", "result", "tests", "minutes"]
 Row = collections.namedtuple("Row", COLUMNS)
 NEVER = ["-"] * (len(COLUMNS) - 1)

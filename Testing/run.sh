@@ -7,12 +7,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 groups=(build python test)
-leave_out=(-LE "heavy|sanitizer|browser|package|cluster|fuzz")
+leave_out=(-LE "heavy|sanitizer|browser|package|cluster|fuzz|web")
 case "${1:-}" in
   "") ;;
   --heavy)
     leave_out=()
-    groups+=(sanitizer analysis package browser)
+    groups+=(sanitizer analysis package browser web)
     ;;
   *) echo "run.sh: unknown option '$1'; there is --heavy" >&2; exit 2 ;;
 esac

@@ -5,6 +5,7 @@
 #include "../voxelcore/Signals.h"
 #include "voxelcore/Options/Parameters.h"
 
+#include <cmath>
 #include <emscripten.h>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,42 @@ const char *                         leftBehind = nullptr;
 } // namespace
 
 EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["isCancelled"]() ? 1 : 0; });
+
+// Functions whose last bits the C library here has otherwise than that of Debian's programs: rounded from twice the
+// digits, which that is but for one value in a thousand.
+extern "C"
+{
+  double
+  sin(double x)
+  {
+    return static_cast<double>(sinl(x));
+  }
+  double
+  cos(double x)
+  {
+    return static_cast<double>(cosl(x));
+  }
+  double
+  tan(double x)
+  {
+    return static_cast<double>(tanl(x));
+  }
+  double
+  asin(double x)
+  {
+    return static_cast<double>(asinl(x));
+  }
+  double
+  acos(double x)
+  {
+    return static_cast<double>(acosl(x));
+  }
+  double
+  atan2(double y, double x)
+  {
+    return static_cast<double>(atan2l(y, x));
+  }
+}
 
 // {commands: [{name, description, footer}], options: [{name, flags, kind, placeholder, default, required, commands,
 // description, group}]}; the text lives as long as the program.

@@ -34,4 +34,6 @@ cp "$build/program/bin/voxelcore.wasm" "$package/"
 version=$(sed -n 's/^project(VoxelCore VERSION \([0-9.]*\).*/\1/p' "$source_folder/CMakeLists.txt")
 sed -i "s/\"version\": \"0.0.0\"/\"version\": \"$version\"/" "$package/package.json"
 node "$here/types.js" "$package"
-(cd "$build" && npm pack --silent "$package" >packed && echo "$build/$(cat packed): $(stat -c %s "$(cat packed)") bytes")
+cd "$build"
+npm pack --silent "$package" >packed
+echo "$build/$(cat packed): $(stat -c %s "$(cat packed)") bytes"

@@ -31,6 +31,10 @@ for package in $packages; do
   dpkg-source --no-check -x "$package"_*.dsc "$package" >/dev/null
   cp "$package/debian/copyright" "$folder/licences/$package.txt"
 done
+# Of the C library that Debian's programs have, its cube root: another's is another in the last bit.
+apt-get "${apt_options[@]}" source --download-only glibc
+tar -xf glibc_*.orig.tar.xz --strip-components=4 --one-top-level=glibc --wildcards '*/sysdeps/ieee754/dbl-64/s_cbrt.c'
+cp /usr/share/doc/libc6/copyright "$folder/licences/glibc.txt"
 
 # library NAME FOLDER "FLAGS" FILE...
 library() {
@@ -54,8 +58,8 @@ cp libpng1.6/scripts/pnglibconf.h.prebuilt "$folder/include/pnglibconf.h"
 library z zlib "-DHAVE_UNISTD_H" adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c \
   uncompr.c zutil.c
 library bz2 bzip2 "" blocksort.c bzlib.c compress.c crctable.c decompress.c huffman.c randtable.c
-library png libpng1.6 "$include" png.c pngerror.c pngget.c pngmem.c pngpread.c pngread.c pngrio.c pngrtran.c pngrutil.c \
-  pngset.c pngtrans.c pngwio.c pngwrite.c pngwtran.c pngwutil.c
+library png libpng1.6 "$include" png.c pngerror.c pngget.c pngmem.c pngpread.c pngread.c pngrio.c pngrtran.c \
+  pngrutil.c pngset.c pngtrans.c pngwio.c pngwrite.c pngwtran.c pngwutil.c
 # shellcheck disable=SC2046 # names of files
 library zstd libzstd "-DZSTD_DISABLE_ASM" $(cd libzstd && ls lib/common/*.c lib/compress/*.c lib/decompress/*.c)
 library lz4 lz4 "" lib/lz4.c lib/lz4hc.c
@@ -71,18 +75,24 @@ printf '#define %s\n' XML_DEV_URANDOM "XML_DTD 1" "XML_NS 1" "XML_CONTEXT_BYTES 
 library expat expat "-I expat/lib" expat/lib/xmlparse.c expat/lib/xmlrole.c expat/lib/xmltok.c
 : >libmd/src/config.h
 library md libmd "-I include -I src -DSHA2_UNROLL_TRANSFORM" src/sha2.c
+touch glibc/math_private.h glibc/libm-alias-double.h
+library cbrt glibc "-I . -include math.h -ffp-contract=off -D__cbrt=cbrt -D__frexp=frexp -D__ldexp=ldexp \
+  '-Dlibm_alias_double(a,b)='" s_cbrt.c
 
 configure() { # SOURCE OPTION...
   emcmake cmake -S "$folder/source/$1" -B "$folder/build/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_C_FLAGS="${web_flags[*]} -w" -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_FIND_ROOT_PATH="$folder" \
     -DBUILD_SHARED_LIBS=OFF "${@:2}" >"$folder/build/$1.log" || { cat "$folder/build/$1.log" >&2; exit 1; }
 }
-configure libjpeg-turbo -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF
+# Sizes that cmake cannot find out of WebAssembly.
+configure libjpeg-turbo -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 \
+  -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF
 ninja -C "$folder/build/libjpeg-turbo" jpeg-static
 headers libjpeg-turbo/jpeglib.h libjpeg-turbo/jmorecfg.h libjpeg-turbo/jerror.h "$folder/build/libjpeg-turbo/jconfig.h"
 cp "$folder/build/libjpeg-turbo/libjpeg.a" "$folder/lib/"
-configure tiff -DHAVE_SIZEOF_SIZE_T=TRUE -DSIZEOF_SIZE_T=4 -Dtiff-tools=OFF -Dtiff-tests=OFF -Dtiff-contrib=OFF -Dtiff-docs=OFF -Dcxx=OFF -Djbig=OFF -Dlerc=OFF \
-  -Dlzma=OFF -Dwebp=OFF -Dlibdeflate=OFF
+configure tiff -DHAVE_SIZEOF_SIZE_T=TRUE -DSIZEOF_SIZE_T=4 \
+  -Dtiff-tools=OFF -Dtiff-tests=OFF -Dtiff-contrib=OFF -Dtiff-docs=OFF -Dcxx=OFF -Djbig=OFF \
+  -Dlerc=OFF -Dlzma=OFF -Dwebp=OFF -Dlibdeflate=OFF
 ninja -C "$folder/build/tiff" tiff
 headers tiff/libtiff/tiff.h tiff/libtiff/tiffio.h tiff/libtiff/tiffvers.h "$folder/build/tiff/libtiff/tiffconf.h"
 cp "$folder/build/tiff/libtiff/libtiff.a" "$folder/lib/"

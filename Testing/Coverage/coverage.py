@@ -114,7 +114,8 @@ def main():
 
     for counter in counters():
         os.remove(counter)
-    tests = subprocess.run(["ctest", "--test-dir", build, "-LE", "heavy|sanitizer|browser|package|cluster|fuzz", "-L",
+    tests = subprocess.run(["ctest", "--test-dir", build,
+                            "-LE", "heavy|sanitizer|browser|package|cluster|fuzz|web", "-L",
                             f"^({'|'.join(options.modules)})$", f"-j{options.jobs}", "--output-on-failure",
                             "--no-tests=error", "--timeout", "3600", "-E", options.exclude], check=False,
                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)

@@ -33,7 +33,7 @@ SEEDED = ["Base", "Lattice", "Shape", "Complex", "Delaunay", "VoxelCore", "Skele
           "Roots"]
 TESTED = SEEDED + ["Blocks", "Refinement", "Thickness", "Sheets", "Phantom", "Verification", "Jobs", "RootsJob",
                    "ThicknessJob", "SheetsJob"]
-LEFT_OUT = re.compile("heavy|sanitizer|browser|package|cluster|fuzz")
+LEFT_OUT = re.compile("heavy|sanitizer|browser|package|cluster|fuzz|web")
 
 # What becomes what, by kind; each is tried at each place of an expression where it fits.
 CHANGES = [

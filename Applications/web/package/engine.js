@@ -123,7 +123,8 @@ export async function runProgram(module, args, { files = [], onErrorLine, isCanc
   try {
     code = program.callMain(args);
   } catch (reason) {
-    const why = reason instanceof RangeError || /memory/i.test(String(reason)) ? 'the memory is used up' : 'the program crashed';
+    const isMemory = reason instanceof RangeError || /memory/i.test(String(reason));
+    const why = isMemory ? 'the memory is used up' : 'the program crashed';
     errors.push(`voxelcore: internal error: ${why}; nothing was written; please report this with the scan`);
     code = 1;
   }

@@ -1,5 +1,5 @@
-// VoxelCore in a page and in Node. Lengths are in mm, positions in files are LPS. The options are those of the program's
-// --help, by name: `lambda`, `withSkeleton` or 'with-skeleton', ...; their types are in options.d.ts.
+// VoxelCore in a page and in Node. Lengths are in mm, positions in files are LPS. The options are those of --help, by
+// name: `lambda`, `withSkeleton` or 'with-skeleton', ...; their types are in options.d.ts.
 
 import type {
   CoreOptions, InfoOptions, RootsOptions, SheetsOptions, SkeletonOptions, ThicknessOptions, VerifyOptions,

@@ -80,7 +80,8 @@ async function scanOf(scan) {
   }
   if (typeof File !== 'undefined' && scan instanceof File) return { name: scan.name, files: [[scan.name, scan]] };
   if (scan?.name !== undefined && scan?.data !== undefined) return { name: scan.name, files: [[scan.name, scan.data]] };
-  const files = Array.isArray(scan) ? scan.map((file) => [file.webkitRelativePath || file.name, file.data ?? file]) : [];
+  const list = Array.isArray(scan) ? scan : [];
+  const files = list.map((file) => [file.webkitRelativePath || file.name, file.data ?? file]);
   if (files.length === 0) throw new TypeError('a scan is a File, {name, data}, or a list of them; in Node a path, too');
   const [first] = files[0];
   const at = first.indexOf('/');

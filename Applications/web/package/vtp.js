@@ -1,6 +1,8 @@
 // Reads a .vtp that the program wrote: its arrays are compressed blocks behind the header.
 
-const kinds = { Float64: Float64Array, Float32: Float32Array, Int64: BigInt64Array, Int32: Int32Array, UInt8: Uint8Array };
+const kinds = {
+  Float64: Float64Array, Float32: Float32Array, Int64: BigInt64Array, Int32: Int32Array, UInt8: Uint8Array,
+};
 
 async function inflate(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));

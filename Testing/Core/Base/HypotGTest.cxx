@@ -26,7 +26,8 @@ TEST(Hypot, IsWithinAUnitOfTheLastPlaceAndTheSameForEachOrderAndSign)
     EXPECT_LE(std::abs(Hypot(x, y) - two), std::nextafter(two, HUGE_VAL) - two) << x << " " << y;
     EXPECT_EQ(Hypot(x, y), Hypot(-y, x));
     const double three = std::hypot(x, y, z);
-    EXPECT_LE(std::abs(Hypot(x, y, z) - three), 4 * (std::nextafter(three, HUGE_VAL) - three)) << x << " " << y << " " << z;
+    EXPECT_LE(std::abs(Hypot(x, y, z) - three), 4 * (std::nextafter(three, HUGE_VAL) - three))
+      << x << " " << y << " " << z;
 #if defined(__GLIBCXX__) && defined(__GLIBC__) && __GLIBC_MINOR__ >= 35
     EXPECT_EQ(Hypot(x, y), two) << x << " " << y;
     EXPECT_EQ(Hypot(x, y, z), three) << x << " " << y << " " << z;
