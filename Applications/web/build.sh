@@ -15,7 +15,7 @@ emcmake cmake -S "$source_folder" -B "$build/program" -G Ninja -DCMAKE_BUILD_TYP
   -DCMAKE_CXX_FLAGS="${web_flags[*]} -isystem $build/libraries/include" -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG \
   -DCMAKE_FIND_ROOT_PATH="$build/libraries" -DCMAKE_PREFIX_PATH=/ -DCMAKE_MODULE_PATH="$here/cmake" \
   -DBoost_INCLUDE_DIR="$build/libraries/include" \
-  -DBUILD_TESTING=OFF -DVOXELCORE_INSTALL=OFF -DVOXELCORE_WERROR=ON -DVOXELCORE_VTK=OFF -DVOXELCORE_TETGEN=OFF \
+  -DBUILD_TESTING=OFF -DVOXELCORE_INSTALL=OFF -DVOXELCORE_VTK=OFF -DVOXELCORE_TETGEN=OFF \
   -DVOXELCORE_PYTHON=OFF -DVOXELCORE_CCACHE=OFF >"$build/configure.log" || { cat "$build/configure.log" >&2; exit 1; }
 cmake --build "$build/program" --target voxelcore
 

@@ -132,12 +132,16 @@ export function table() {
   return work({});
 }
 
+/** Only a page's worker reads a Blob piece by piece. */
+const readable = async (data) => (isNode && data instanceof Blob ? new Uint8Array(await data.arrayBuffer()) : data);
+
 /** Runs a command line: see index.d.ts. */
 export async function run(args, files = [], { onProgress, signal, allowFailure = false } = {}) {
   const saysProgress = onProgress && args.length > 0 && !args[0].startsWith('-') &&
     !args.some((arg) => arg.startsWith('--progress'));
   const words = saysProgress ? [args[0], '--progress=json', ...args.slice(1)] : args;
-  const done = await work({ args: words, files: [...files] }, { onProgress, signal });
+  const given = await Promise.all([...files].map(async ([name, data]) => [name, await readable(data)]));
+  const done = await work({ args: words, files: given }, { onProgress, signal });
   if (done.code !== 0 && !allowFailure) throw new VoxelCoreError(done.code, done.errors);
   const warning = 'voxelcore: warning: ';
   return {

@@ -158,7 +158,7 @@ private:
   Guarded(const Work & work) noexcept
   {
     // NOLINTNEXTLINE(cert-err52-cpp): the only way that libpng has to fail
-    if (setjmp(png_jmpbuf(m_Png)) != 0)
+    if (setjmp(m_Back) != 0)
     {
       return false;
     }
@@ -177,9 +177,9 @@ private:
   [[noreturn]] static void
   OnError(png_structp png, png_const_charp text)
   {
-    auto & error = static_cast<PngHandle *>(png_get_error_ptr(png))->m_Error;
-    std::strncpy(error.data(), text, error.size() - 1);
-    png_longjmp(png, 1);
+    auto * const self = static_cast<PngHandle *>(png_get_error_ptr(png));
+    std::strncpy(self->m_Error.data(), text, self->m_Error.size() - 1);
+    std::longjmp(self->m_Back, 1); // libpng's own call of it goes through a pointer, which WebAssembly has not
   }
   static void
   OnWarning(png_structp, png_const_charp)
@@ -209,6 +209,7 @@ private:
   png_infop             m_Info = nullptr;
   int                   m_Passes = 1;
   bool                  m_Interlaced = false;
+  std::jmp_buf          m_Back{};
   std::array<char, 200> m_Error{};
 };
 
