@@ -4,7 +4,8 @@
 # (a real scan), picture (to render where there is no screen), guide (to build the guide's site), test, package (to make
 # and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), analysis (what
 # reads the sources, and valgrind), browser (tests of pages), cluster (workflows, and the tests on a cluster), container
-# (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance), web (WebAssembly)
+# (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance), web
+# (WebAssembly)
 set -euo pipefail
 
 packages_of() {

@@ -2,7 +2,6 @@
 
 #include "BallBoxes.h"
 #include "BoundaryNormals.h"
-#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Verification/OctantScan.h"
@@ -131,7 +130,7 @@ RefinedGapBound(double                                 height,
                 const std::array<double, 3> &          spacing,
                 std::span<const std::array<double, 3>> movesBeforePruning)
 {
-  const double half = 0.5 * Hypot(spacing[0], spacing[1], spacing[2]);
+  const double half = 0.5 * std::hypot(spacing[0], spacing[1], spacing[2]);
   if (movesBeforePruning.empty())
   {
     return { std::max(height, half), 0 };
@@ -139,7 +138,7 @@ RefinedGapBound(double                                 height,
   double farthest = 0;
   for (const auto & d : movesBeforePruning)
   {
-    farthest = std::max(farthest, Hypot(d[0], d[1], d[2]));
+    farthest = std::max(farthest, std::hypot(d[0], d[1], d[2]));
   }
   return { height, 2 * farthest + half };
 }

@@ -1,6 +1,5 @@
 #include "BoundaryNormals.h"
 
-#include "voxelcore/Base/Hypot.h"
 #include "voxelcore/Base/Library.h"
 
 #include <algorithm>
@@ -34,7 +33,7 @@ BoundaryNormals::BoundaryNormals(const VoxelShape & shape, const SpacingWeights 
     }
     m_Sides[axis] = static_cast<double>(side);
   }
-  m_Diagonal = Hypot(m_Sides[0], m_Sides[1], m_Sides[2]);
+  m_Diagonal = std::hypot(m_Sides[0], m_Sides[1], m_Sides[2]);
   m_Least = std::sqrt(3.0) * *ranges::min_element(m_Sides);
   m_Largest = std::max(1.0, m_Diagonal / m_Least);
 }
@@ -68,7 +67,7 @@ BoundaryNormals::WeightAt(const LatticePoint & corner) const
   {
     normal[axis] = static_cast<double>(std::abs(differences[axis])) / m_Sides[axis];
   }
-  const double length = Hypot(normal[0], normal[1], normal[2]);
+  const double length = std::hypot(normal[0], normal[1], normal[2]);
   if (length == 0)
   {
     return 1;
