@@ -23,31 +23,17 @@ EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["is
 // digits, which that is but for one value in a thousand.
 extern "C"
 {
-  double
-  sin(double x)
-  {
-    return static_cast<double>(sinl(x));
+#define VOXELCORE_ROUNDED(name)             \
+  double name(double x)                     \
+  {                                         \
+    return static_cast<double>(name##l(x)); \
   }
-  double
-  cos(double x)
-  {
-    return static_cast<double>(cosl(x));
-  }
-  double
-  tan(double x)
-  {
-    return static_cast<double>(tanl(x));
-  }
-  double
-  asin(double x)
-  {
-    return static_cast<double>(asinl(x));
-  }
-  double
-  acos(double x)
-  {
-    return static_cast<double>(acosl(x));
-  }
+  VOXELCORE_ROUNDED(sin)
+  VOXELCORE_ROUNDED(cos)
+  VOXELCORE_ROUNDED(tan)
+  VOXELCORE_ROUNDED(asin)
+  VOXELCORE_ROUNDED(acos)
+#undef VOXELCORE_ROUNDED
   double
   atan2(double y, double x)
   {
