@@ -133,7 +133,7 @@ await test('bad files and words get the line and the exit code of the program', 
     'junk.mgz': 'junk', 'junk.npy': '\x93NUMPY\x01\x00', 'junk.tif': 'II*\0', 'junk.png': '\x89PNG\r\n',
     'junk.jpg': '\xff\xd8\xff\xe0junk', 'junk.vti': '<VTKFile type="ImageData">',
     'junk.stl': 'solid', 'junk.ply': 'ply\nformat ascii 1.0\n',
-    'zero.nrrd': nrrd('4 4 4', '\n') + '\0'.repeat(64),
+    'zero.nrrd': nrrd('4 4 4') + '\0'.repeat(64),
   };
   for (const [name, text] of Object.entries(bad)) fs.writeFileSync(name, text, 'latin1');
   const cases = Object.keys(bad).map((name) => ['core', path.join(place, name), '-o', 'o.vtp']);

@@ -57,7 +57,11 @@ PeakMemoryMb()
 std::optional<double>
 AvailableMemoryMb()
 {
+#ifdef __EMSCRIPTEN__
+  return 0.9 * static_cast<double>(emscripten_get_heap_max() - emscripten_get_heap_size()) / 1e6;
+#else
   return std::nullopt;
+#endif
 }
 
 void

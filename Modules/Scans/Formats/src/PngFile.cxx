@@ -155,7 +155,7 @@ public:
 private:
   template <typename Work>
   bool
-  Guarded(const Work & work) noexcept
+  Guarded(const Work & work) // not noexcept: in WebAssembly a jump out is an exception of its own kind
   {
     // NOLINTNEXTLINE(cert-err52-cpp): the only way that libpng has to fail
     if (setjmp(m_Back) != 0)
