@@ -213,7 +213,7 @@ TryCertified(const RandomVolume & volume)
   request.skeleton->smooth = ParseLambda("6vox");
   request.thickness.emplace();
   const CertifiedResult result = ComputeCertified(volume.shape, geometry, request);
-  return result.cores.empty() || !result.skeleton || !result.standOut || !result.thickness ? "something is missing"
+  return result.cores.empty() || !result.skeleton || !result.skeleton->standOut || !result.thickness ? "something is missing"
                                                                                            : "";
 }
 

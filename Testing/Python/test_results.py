@@ -98,6 +98,7 @@ def test_a_skeleton_has_the_bits_of_the_command_line(tmp_path):
     for name in ("branch_distance", "mean_radius", "strahler", "branch_type"):
         file = [float(line[lines[0].index(name)]) for line in lines[1:]]
         assert numpy.allclose(table[name], file, rtol=1e-6, atol=0), name
+    assert skeleton.report["labels"][0]["certificate"]["stand_out"] is True
     assert set(table) <= set(voxelcore.columns())
     assert skeleton.numbers["branches"] == len(table["branch_distance"]) == len(skeleton.branch_nodes)
 

@@ -132,7 +132,7 @@ TEST(SeededFaults, InTheChoiceOfBranchesAreRefused)
   request.skeleton->standOut = ParseLambda("3vox");
   request.skeleton->smooth = ParseLambda("6vox");
   unsetenv("VOXELCORE_SEEDED_FAULT");
-  EXPECT_EQ(ComputeCertified(BarWithAnArm(), geometry, request).standOut, true);
+  EXPECT_EQ(ComputeCertified(BarWithAnArm(), geometry, request).skeleton->standOut, true);
   setenv("VOXELCORE_SEEDED_FAULT", "branches", 1);
   EXPECT_THROW(ComputeCertified(BarWithAnArm(), geometry, request), CertificateError);
   unsetenv("VOXELCORE_SEEDED_FAULT");

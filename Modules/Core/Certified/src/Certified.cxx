@@ -130,7 +130,6 @@ RunOfBodies(VoxelShape               shape,
       result = RunCertified(std::move(shape), geometry, within, plan.Next());
       CertifiedResult beyond = body.Run(curves, plan.Next());
       result.skeleton = std::move(beyond.skeleton);
-      result.standOut = beyond.standOut;
       result.seconds.shape += beyond.seconds.shape;
       result.seconds.delaunay += beyond.seconds.delaunay;
       result.seconds.core += beyond.seconds.core;

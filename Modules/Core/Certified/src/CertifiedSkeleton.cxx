@@ -301,6 +301,7 @@ MeasureCurves(const BurnedCurves &    burned,
   const Vector3 &   spacing = shape.geometry.spacing;
   CertifiedSkeleton result;
   result.topology = burned.topology;
+  result.standOut = burned.standOut;
   SkeletonGraph & graph = result.skeleton.graph;
   graph = BuildSkeletonGraph(burned.curves);
   const double     window = InMeanVoxels(request.smooth, ComputeSpacingWeights(spacing), spacing, shape.box);
@@ -351,13 +352,18 @@ MeasureCurves(const BurnedCurves &    burned,
 }
 
 void
-RequireNothingStandsOut(const CurveSkeleton &   curves,
+RequireNothingStandsOut(BurnedCurves &          burned,
                         const VoxelShape &      voxels,
                         const CertifiedShape &  shape,
                         const SkeletonRequest & request)
 {
-  std::vector<Vector3> places = curves.complex.positions;
-  std::vector<double>  reach = curves.complex.radius;
+  if (!(request.standOut.value > 0))
+  {
+    return;
+  }
+  const CurveSkeleton & curves = burned.curves;
+  std::vector<Vector3>  places = curves.complex.positions;
+  std::vector<double>   reach = curves.complex.radius;
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     places[i] = PhysicalToLattice(shape.geometry, places[i]);
@@ -374,6 +380,7 @@ RequireNothingStandsOut(const CurveSkeleton &   curves,
                    std::to_string(outside->voxel[0]) + "," + std::to_string(outside->voxel[1]) + "," +
                    std::to_string(outside->voxel[2]) + " of its box");
   }
+  burned.standOut = true;
 }
 
 void
@@ -403,12 +410,12 @@ SkeletonOf(const PlacedCore &       core,
   RequireTrueLattice(ComputeLatticeWeights(shape.geometry), shape.geometry, shape.box, shape.name);
   MedialComplex surface = core.core;
   frame.Enter(surface.positions);
-  const BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());
+  BurnedCurves burned = BurnToCurves(surface, nullptr, there, request, plan.Next());
   ReportProgress(plan.Next("branches"), "", 0);
   const VoxelShape voxels = body != nullptr ? MovedTo(frame.Enter(body->Box()).lower, *body) : BodyOf(surface, there);
-  if (body != nullptr && BurnsWhole(request) && !request.refined && request.standOut.value > 0)
+  if (body != nullptr && BurnsWhole(request) && !request.refined)
   {
-    RequireNothingStandsOut(burned.curves, voxels, there, request);
+    RequireNothingStandsOut(burned, voxels, there, request);
   }
   CertifiedSkeleton result = MeasureCurves(burned, voxels, there, request);
   LeaveFrame(frame, request.branches.root, result);

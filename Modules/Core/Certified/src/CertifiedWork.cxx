@@ -316,11 +316,7 @@ private:
     if (BurnsWhole(m_Request))
     {
       m_Curves = BurnToCurves(core, m_Result.shape, request, m_Plan.Next());
-      if (request.standOut.value > 0)
-      {
-        RequireNothingStandsOut(m_Curves->curves, m_Voxels, m_Result.shape, request);
-        m_Result.standOut = true;
-      }
+      RequireNothingStandsOut(*m_Curves, m_Voxels, m_Result.shape, request);
     }
     else if (const LiveElements left = PartToBurn(core, m_Result.shape, request); request.tolerance)
     {

@@ -6,6 +6,7 @@
 #include "voxelcore/Skeleton/CurveSkeleton.h"
 
 #include <memory>
+#include <optional>
 
 namespace voxelcore
 {
@@ -16,6 +17,7 @@ struct BurnedCurves
   CurveSkeleton                          curves;
   TopologyNumbers                        topology;
   std::shared_ptr<const SurfaceDistance> toSurface; ///< to which they have been refined; none: they have not
+  std::optional<bool>                    standOut;  ///< CertifiedSkeleton::standOut
 };
 
 /** Of a shape that was made to go on beyond the border of its scan, what it was. */
@@ -59,10 +61,10 @@ MeasureCurves(const BurnedCurves &    burned,
               const SkeletonRequest & request,
               const BeyondBorder *    goesOn = nullptr);
 
-/** Of curves of the whole core, as fire and the request's standOut leave them: \throws CertificateError where a ball in
- *  the shape stands out of them all (BallStandingOut()). */
+/** Of curves of the whole core, as fire and the request's standOut leave them; nothing where that is 0.
+ *  \throws CertificateError where a ball in the shape stands out of them all (BallStandingOut()). */
 void
-RequireNothingStandsOut(const CurveSkeleton &   curves,
+RequireNothingStandsOut(BurnedCurves &          burned,
                         const VoxelShape &      voxels,
                         const CertifiedShape &  shape,
                         const SkeletonRequest & request);

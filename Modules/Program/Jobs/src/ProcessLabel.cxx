@@ -68,7 +68,6 @@ ProcessLabel(EditedLabel              edited,
   record.topologyEqual = true;
   record.enclosed = true;
   record.covered = result.covered;
-  record.standOut = result.standOut;
   for (CertifiedCore & one : result.cores)
   {
     record.pruned.push_back({ std::move(one.numbers) });

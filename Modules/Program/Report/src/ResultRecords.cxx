@@ -12,6 +12,7 @@ TakeSkeleton(CertifiedSkeleton skeleton, LabelRecord & record)
   part.label = record.label;
   part.component = record.component;
   part.name = record.name;
+  record.standOut = skeleton.standOut;
   record.skeleton = { skeleton.topology,          part.table.numbers, std::move(skeleton.cuts), {},
                       std::move(skeleton.border), part.network };
   return part;

@@ -130,10 +130,8 @@ struct CertifiedResult
   std::vector<CertifiedCore>        cores; ///< one per lambda or tolerance, in the order asked for
   std::optional<CertifiedSkeleton>  skeleton;
   std::optional<CertifiedThickness> thickness;
-  std::optional<bool>               covered;  ///< true: every boundary gap is as promised; none: nothing is promised
-  std::optional<bool>               standOut; ///< true: every part of the body that stands out has a branch; none:
-                                              ///< nothing is promised, as the core is pruned before it burns
-  CertifiedSeconds seconds;
+  std::optional<bool>               covered; ///< true: every boundary gap is as promised; none: nothing is promised
+  CertifiedSeconds                  seconds;
 };
 
 /** Without either, one core at kUsualTolerance is asked for. Tolerances without a lambda begin at the whole core. */

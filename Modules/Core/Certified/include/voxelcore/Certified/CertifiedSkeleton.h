@@ -60,6 +60,9 @@ struct CertifiedSkeleton
   std::vector<LoopCut> cuts;
 
   std::optional<BorderNumbers> border{}; ///< of a body at the border of its scan, where that is not closed
+
+  std::optional<bool> standOut{}; ///< true: every part of the body that stands out has a branch; none: nothing is
+                                  ///< promised, as the core was pruned before it burned, or the body is not at hand
 };
 
 /** A body as it is taken to go on beyond the border of its scan, so far that its curves run up to it. */

@@ -92,7 +92,7 @@ struct LabelRecord
   std::int64_t                  label = 0;
   std::int64_t                  component = 0; ///< from 1 by size; 0: the whole label
   std::string                   name;
-  std::optional<bool>           standOut = std::nullopt;  ///< CertifiedResult::standOut; in reports, not in files
+  std::optional<bool>           standOut = std::nullopt;  ///< CertifiedSkeleton::standOut; in reports, not in files
   std::optional<HollowBody>     hollow = std::nullopt;    ///< in reports, not in files
   std::optional<MaskDiagnosis>  diagnosis = std::nullopt; ///< where there is something to say; in reports, not in files
   std::optional<EditRecord>     edits;                    ///< of the whole label; none when none was asked for
