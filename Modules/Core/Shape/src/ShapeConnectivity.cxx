@@ -592,13 +592,15 @@ public:
   }
 
 private:
-  /** One fill or two that join; the best come first: those that join most and lie deepest. */
+  /** One fill or two that join; the best come first: those that join most and lie deepest. Of dust there are millions,
+   *  so that no heap is asked for them. */
   struct Joint
   {
-    int                joined = 0;
-    int                around = 0; ///< voxels in among the 26
-    std::vector<Voxel> turned;
-    std::vector<Voxel> voxels;
+    int                  joined = 0;
+    int                  around = 0; ///< voxels in among the 26
+    bool                 isPair = false;
+    std::array<Voxel, 2> turned{};
+    std::array<Voxel, 2> voxels{};
   };
 
   /** Whether pieces, by one run of each, touch in the mask, or are held together by others that do. */
@@ -684,7 +686,7 @@ private:
       {
         if (const int joined = PiecesAt(at); joined > 0)
         {
-          joints.push_back({ joined, std::popcount(m_Shape.Around(at)), { m_Turning(at) }, { at } });
+          joints.push_back({ joined, std::popcount(m_Shape.Around(at)), false, { m_Turning(at) }, { at } });
         }
       }
     }
@@ -711,6 +713,7 @@ private:
           {
             joints.push_back({ joined,
                                std::popcount(m_Shape.Around(first)) + std::popcount(m_Shape.Around(second)),
+                               true,
                                { m_Turning(first), m_Turning(second) },
                                { first, second } });
           }
@@ -727,14 +730,14 @@ private:
   JoinBest(std::vector<Joint> joints)
   {
     ranges::sort(joints, [](const Joint & a, const Joint & b) {
-      return std::tuple(-a.joined, -a.around, a.turned) < std::tuple(-b.joined, -b.around, b.turned);
+      return std::tie(b.joined, b.around, a.turned) < std::tie(a.joined, a.around, b.turned);
     });
     bool moves = false;
     for (const Joint & joint : joints)
     {
-      const Voxel & first = joint.voxels.front();
-      const Voxel & last = joint.voxels.back();
-      const bool    isPair = joint.voxels.size() > 1;
+      const auto [first, second] = joint.voxels;
+      const bool    isPair = joint.isPair;
+      const Voxel & last = isPair ? second : first;
       if (isPair && !CanGoFirst(first))
       {
         continue;
@@ -746,7 +749,7 @@ private:
       if (const int pieces = PiecesAt(last); pieces > 0)
       {
         Fill(last);
-        m_Joints.push_back({ pieces, joint.voxels });
+        m_Joints.push_back({ pieces, isPair ? std::vector{ first, second } : std::vector{ first } });
         moves = true;
       }
       else if (isPair)
