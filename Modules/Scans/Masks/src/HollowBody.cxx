@@ -10,12 +10,12 @@
 
 #include "voxelcore/Base/CountBits.h"
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -356,9 +356,7 @@ FindHollowBody(const VoxelShape &                  shape,
 std::string
 HollowText(const HollowBody & body)
 {
-  char share[32];
-  (void)std::snprintf(share, sizeof(share), "%.2g", body.share);
-  std::string text = "looks hollow: it walls in " + std::string(share) + " times its own volume (" +
+  std::string text = "looks hollow: it walls in " + FixedText(body.share, body.share < 10 ? 1 : 0) + " times its own volume (" +
                      Counted(body.voxels, "voxel", "voxels") + " of background), and its core follows the walls; ";
   return text + (body.holes == 0
                    ? "--fill-cavities or --fill-slices fills lumens"

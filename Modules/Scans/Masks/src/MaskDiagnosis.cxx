@@ -2,13 +2,13 @@
 
 #include "voxelcore/Shape/TouchingPieces.h"
 
+#include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Masks/ShapeSmoothing.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 #include "voxelcore/Shape/ShapeTopology.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 namespace voxelcore
@@ -147,9 +147,8 @@ DiagnoseTouching(const VoxelShape & shape)
 std::string
 ShareText(std::uint64_t part, std::uint64_t all)
 {
-  char text[32];
-  (void)std::snprintf(text, sizeof(text), "%.2g %%", 100 * static_cast<double>(part) / static_cast<double>(all));
-  return text;
+  const double percent = 100 * static_cast<double>(part) / static_cast<double>(all);
+  return FixedText(percent, percent < 10 ? 1 : 0) + " %";
 }
 
 } // namespace voxelcore
