@@ -307,13 +307,20 @@ MeasureCurves(const BurnedCurves &    burned,
   const double     window = InMeanVoxels(request.smooth, ComputeSpacingWeights(spacing), spacing, shape.box);
   const VoxelReach reach = HalfAVoxel(shape.geometry);
   const OpenShape  inside(voxels, shape.geometry);
-  BranchIntoDomes(graph, inside, StandOutOn(shape, request));
-  FitBranches(graph, window, reach, inside);
+  const auto fit = [&] {
+    // Past domes first, as smoothing draws their feet into them.
+    if (BranchIntoDomes(graph, inside, StandOutOn(shape, request)) > 0 && window > 0)
+    {
+      StraightenPastDomes(graph, inside);
+    }
+    FitBranches(graph, window, reach, inside);
+  };
+  fit();
   const BranchRequest & branches = request.branches;
   const double          limit = branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0;
   if (PruneBranches(graph, { limit, branches.pruneRadii }) > 0)
   {
-    FitBranches(graph, window, reach, inside);
+    fit(); // a line may have run into a dome and back past a twig
   }
   if (window > 0 && StraightenPastDomes(graph, inside) > 0)
   {

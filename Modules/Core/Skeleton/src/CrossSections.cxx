@@ -225,6 +225,7 @@ private:
   FindDomes(const SkeletonGraph & graph)
   {
     m_Domes.resize(graph.nodePoints.size());
+    m_IsInDome.assign(m_Graph.positions.size(), 0);
     for (const DomeBranch & dome : DomesOf(graph))
     {
       const double radius = graph.radius[dome.greatest];
@@ -232,6 +233,12 @@ private:
       {
         m_Domes[dome.node] = { dome.branch, m_Graph.positions[dome.greatest], radius };
       }
+      const auto points = m_Graph.Branch(dome.branch);
+      const auto greatest = std::ranges::find(points, dome.greatest);
+      const bool isFirst = m_Graph.branchNodes[dome.branch][0] == dome.node;
+      std::for_each(isFirst ? greatest : points.begin(), isFirst ? points.end() : greatest + 1, [&](ElementIndex point) {
+        m_IsInDome[point] = 1;
+      });
     }
   }
 
@@ -290,10 +297,12 @@ private:
     for (const ElementIndex node : m_Graph.branchNodes[branch])
     {
       const NodeKind kind = m_Graph.nodeKinds[node];
-      if (kind == NodeKind::Junction || kind == NodeKind::Surface)
+      const auto &   dome = m_Domes[node];
+      // The ball where a dome begins may hold the middle of the dome.
+      const bool isInDome = dome && dome->branch == branch && m_IsInDome[point] != 0;
+      if ((kind == NodeKind::Junction || kind == NodeKind::Surface) && !isInDome)
       {
         const ElementIndex centre = m_Graph.nodePoints[node];
-        const auto &       dome = m_Domes[node];
         if (Distance(m_Graph.positions[point], m_Graph.positions[centre]) < m_Graph.radius[centre] ||
             (dome && dome->branch != branch &&
              Distance(m_Graph.positions[point], dome->middle) < dome->radius + m_Graph.radius[point] + m_Diagonal))
@@ -545,6 +554,13 @@ private:
     }
   }
 
+  /** Beyond tips bodies close: what is missing there tells nothing of the branch. */
+  bool
+  IsKnown(ElementIndex point) const
+  {
+    return !std::isnan(m_Excess[point]) && m_IsBeyond[point] == 0;
+  }
+
   /** Nodes that join branches get the mean of what these have nearest to them, but for what leads into a dome. */
   void
   FillNodes()
@@ -554,7 +570,7 @@ private:
     for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
     {
       const auto points = m_Graph.Branch(branch);
-      const auto known = [&](ElementIndex point) { return !std::isnan(m_Excess[point]); };
+      const auto known = [&](ElementIndex point) { return IsKnown(point); };
       const auto add = [&](std::size_t end, auto from, auto to) {
         const auto        nearest = std::find_if(from, to, known);
         const std::size_t node = m_Graph.branchNodes[branch][end];
@@ -600,7 +616,7 @@ private:
           const std::size_t before = forward ? i - 1 : i + 1;
           away += Distance(m_Graph.positions[points[before]], m_Graph.positions[points[i]]);
         }
-        if (!std::isnan(m_Excess[points[i]]))
+        if (IsKnown(points[i]))
         {
           away = 0;
           excess = m_Excess[points[i]];
@@ -623,6 +639,7 @@ private:
   std::vector<double>              m_Excess; ///< per point, of the section's radius over the ball's; NaN while unknown
   std::vector<std::uint8_t>        m_IsBeyond; ///< per point, whether it lies beyond a tip
   std::vector<std::optional<Dome>> m_Domes;    ///< per node
+  std::vector<std::uint8_t>        m_IsInDome; ///< per point, whether it is the middle of a dome's greatest ball or beyond
   Vector3                          m_Spacing;
   double                           m_Diagonal;
   std::vector<WeightedSite>        m_Sites; ///< per point
