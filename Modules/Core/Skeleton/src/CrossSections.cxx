@@ -234,7 +234,7 @@ private:
         m_Domes[dome.node] = { dome.branch, m_Graph.positions[dome.greatest], radius };
       }
       const auto points = m_Graph.Branch(dome.branch);
-      const auto greatest = std::ranges::find(points, dome.greatest);
+      const auto greatest = ranges::find(points, dome.greatest);
       const bool isFirst = m_Graph.branchNodes[dome.branch][0] == dome.node;
       std::for_each(isFirst ? greatest : points.begin(), isFirst ? points.end() : greatest + 1, [&](ElementIndex point) {
         m_IsInDome[point] = 1;
