@@ -225,7 +225,6 @@ private:
   FindDomes(const SkeletonGraph & graph)
   {
     m_Domes.resize(graph.nodePoints.size());
-    m_IsInDome.assign(m_Graph.positions.size(), 0);
     for (const DomeBranch & dome : DomesOf(graph))
     {
       const double radius = graph.radius[dome.greatest];
@@ -233,12 +232,6 @@ private:
       {
         m_Domes[dome.node] = { dome.branch, m_Graph.positions[dome.greatest], radius };
       }
-      const auto points = m_Graph.Branch(dome.branch);
-      const auto greatest = ranges::find(points, dome.greatest);
-      const bool isFirst = m_Graph.branchNodes[dome.branch][0] == dome.node;
-      std::for_each(isFirst ? greatest : points.begin(), isFirst ? points.end() : greatest + 1, [&](ElementIndex point) {
-        m_IsInDome[point] = 1;
-      });
     }
   }
 
@@ -297,12 +290,10 @@ private:
     for (const ElementIndex node : m_Graph.branchNodes[branch])
     {
       const NodeKind kind = m_Graph.nodeKinds[node];
-      const auto &   dome = m_Domes[node];
-      // The ball where a dome begins may hold the middle of the dome.
-      const bool isInDome = dome && dome->branch == branch && m_IsInDome[point] != 0;
-      if ((kind == NodeKind::Junction || kind == NodeKind::Surface) && !isInDome)
+      if (kind == NodeKind::Junction || kind == NodeKind::Surface)
       {
         const ElementIndex centre = m_Graph.nodePoints[node];
+        const auto &       dome = m_Domes[node];
         if (Distance(m_Graph.positions[point], m_Graph.positions[centre]) < m_Graph.radius[centre] ||
             (dome && dome->branch != branch &&
              Distance(m_Graph.positions[point], dome->middle) < dome->radius + m_Graph.radius[point] + m_Diagonal))
@@ -639,7 +630,6 @@ private:
   std::vector<double>              m_Excess; ///< per point, of the section's radius over the ball's; NaN while unknown
   std::vector<std::uint8_t>        m_IsBeyond; ///< per point, whether it lies beyond a tip
   std::vector<std::optional<Dome>> m_Domes;    ///< per node
-  std::vector<std::uint8_t>        m_IsInDome; ///< per point, whether it is the middle of a dome's greatest ball or beyond
   Vector3                          m_Spacing;
   double                           m_Diagonal;
   std::vector<WeightedSite>        m_Sites; ///< per point
