@@ -277,8 +277,8 @@ DefineSkeleton(py::module_ & module)
   const auto graph = [](const Handle & skeleton) -> const SkeletonGraph & { return skeleton->part.graph; };
   py::class_<SkeletonOfLabel, Handle>(module, "SkeletonData")
     .def_property_readonly("points", [graph](const Handle & s) { return View(s, graph(s).positions); })
-    .def_property_readonly("radius", [graph](const Handle & s) { return View(s, graph(s).radius); })
-    .def_property_readonly("section_radius", [graph](const Handle & s) { return View(s, graph(s).sectionRadius); })
+    .def_property_readonly("radius", [graph](const Handle & s) { return View(s, SectionRadii(graph(s))); })
+    .def_property_readonly("ball_radius", [graph](const Handle & s) { return View(s, graph(s).radius); })
     .def_property_readonly("erosion_thickness",
                            [graph](const Handle & s) { return View(s, graph(s).erosionThickness); })
     .def_property_readonly("branch_offsets", [graph](const Handle & s) { return View(s, graph(s).branchOffsets); })

@@ -98,6 +98,7 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
   ProgressPrinter printer(console, StyleOf(line, quiet, console));
   JobContext      context;
   context.temporaries = &temporaries;
+  context.unitsInTables = line.values.contains("units");
   context.progress = [&printer](std::string_view stage, double fraction) {
     printer.Show(stage, fraction);
     return !WasInterrupted();

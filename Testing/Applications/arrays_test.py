@@ -15,7 +15,7 @@ COMMANDS = """
 phantom vessels --size 48 --spacing 1,1,1 -o vessels.nrrd
 phantom root --size 32 --spacing 1,1,1 -o plant.nrrd
 phantom thick-and-thin --size 24 --spacing 1,1,1 -o body.nrrd
-core body.nrrd --split-components -o core.vtp
+core body.nrrd --split-components -o core.vtp --table table.csv
 core body.nrrd --tolerance 0 --keep-edges -o whole.vtp
 skeleton vessels.nrrd --network --sections 4vox --flow flow.csv --centerlines centerlines.vtp --also csv -o net.vtp
 straighten vessels.nrrd net.vtp --branch 0 -o tube.nrrd --table straight.csv --points points.csv --mapped mapped.csv
@@ -31,14 +31,13 @@ KINDS = {"medial": ["core.vtp", "whole.vtp", "medial.vtp"], "skeleton": ["net.vt
          "surface": ["surface.vtp"], "sections": ["net_sections.vtp"],
          "centerlines": ["centerlines.vtp"]}  # fmt: skip
 
-# Tables by the headings of the page: the file, and where it is told what its columns mean. What `None` is told by the
-# page alone.
+# Tables by the headings of the page: the file, and where it is told what its columns mean.
 TABLES = {
     "OUT_branches.csv": ("net_branches.csv", "net_columns.json", "branches"),
     "OUT_summary.csv": ("net_summary.csv", "net_columns.json", "summary"),
     "OUT_contacts.csv": ("net_contacts.csv", "net_columns.json", "contacts"),
-    "OUT_sections.csv": ("net_sections.csv", "net_sections.json", "sections"),
-    "OUT_lesions.csv": ("net_lesions.csv", "net_sections.json", "lesions"),
+    "OUT_sections.csv": ("net_sections.csv", "net_columns.json", "sections"),
+    "OUT_lesions.csv": ("net_lesions.csv", "net_columns.json", "lesions"),
     "--flow OUT.csv": ("flow.csv", "flow_columns.json", "segments"),
     "OUT_nodes.csv": ("flow_nodes.csv", "flow_columns.json", "nodes"),
     "straighten --table": ("straight.csv", "straight_columns.json", "planes"),
@@ -47,15 +46,17 @@ TABLES = {
     "levels.csv": ("roots/levels.csv", "roots/columns.json", "levels"),
     "plant.csv": ("roots/plant.csv", "roots/columns.json", "plant"),
     "profile.csv": ("roots/profile.csv", "roots/columns.json", "profile"),
-    "annotations.csv": ("roots/annotations.csv", None, None),
+    "annotations.csv": ("roots/annotations.csv", "roots/columns.json", "annotations"),
     "thickness --table": ("thickness.csv", "thickness_columns.json", "thickness"),
     "OUT_histogram.csv": ("thickness_histogram.csv", "thickness_columns.json", "histogram"),
     "sheets --table": ("sheets.csv", "sheets_columns.json", "sheets"),
     "OUT_seams.csv": ("sheets_seams.csv", "sheets_columns.json", "seams"),
-    "core --resolution": ("study.csv", None, None),
+    "core --table": ("table.csv", "table_columns.json", "labels"),
+    "core --resolution": ("study.csv", "study_columns.json", "resolutions"),
 }
 # Their columns are the keys of reports, as the page says.
-OF_REPORTS = {"cohort/cases.csv", "cohort/labels.csv"}
+OF_REPORTS = {"cohort/cases.csv": ("cohort/columns.json", "cases"),
+              "cohort/labels.csv": ("cohort/columns.json", "labels")}
 # Written by this test; copies of what other commands write.
 INPUTS = {"points.csv"}
 FIRST = ("label", "name", "part")  # told once for all tables
@@ -66,7 +67,7 @@ def check(condition, message):
         sys.exit("arrays_test.py: " + message)
 
 
-def run_commands(program):
+def run_commands(program, *further):
     Path("points.csv").write_text("x,y,z\n20,20,20\n")
     corners = [(c % 2, c // 2 % 2, c // 4) for c in range(8)]
     sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
@@ -76,7 +77,9 @@ def run_commands(program):
         "element face 6\nproperty list uchar int vertex_indices\nend_header\n"
         + "\n".join([f"{x} {y} {z}" for x, y, z in corners] + faces) + "\n")  # fmt: skip
     for command in COMMANDS.strip().splitlines():
-        done = subprocess.run([program, *command.split(), "-q"], capture_output=True, text=True)
+        has_tables = not command.startswith("phantom")
+        done = subprocess.run([program, *command.split(), "-q", *(further if has_tables else ())],
+                              capture_output=True, text=True)
         check(done.returncode == 0, f"voxelcore {command}\n{done.stderr}")
 
 
@@ -150,6 +153,35 @@ def check_arrays(page):
         check(any(arrays_of(Path(path)) <= {key[1:] for key in told if key[0] == kind} for kind in KINDS), path)
 
 
+def columns_of(file, key):
+    columns = json.loads(Path(file).read_text())[key]
+    check(all(told["Description"] or name[-1] in "yz" for name, told in columns.items()),
+          f"{file} does not say what all columns of {key} mean")  # fmt: skip
+    return columns
+
+
+def check_units(program):
+    """With --units the first line of every table has the units that its columns file gives, and what reads tables
+    reads these."""
+    run_commands(program, "--units")
+    tables = {file: (columns_file, key) for file, columns_file, key in TABLES.values()} | OF_REPORTS
+    named_units = 0
+    for file, (columns_file, key) in tables.items():
+        with open(file, newline="") as stream:
+            written = next(csv.reader(stream))
+        units = {name: told.get("Units", "1") for name, told in columns_of(columns_file, key).items()}
+        expected = [name + (f" [{unit}]" if unit != "1" else "") for name, unit in units.items()]
+        check(written == expected, f"{file} with --units begins with {written}, not {expected}")
+        named_units += sum(unit != "1" for unit in units.values())
+    check(named_units > 100, f"only {named_units} columns have units")
+    for again in ("roots plant.nrrd --no-pictures --edits roots/annotations.csv -o edited/",
+                  "straighten vessels.nrrd net.vtp --branch 0 -o tube2.nrrd --points mapped.csv --mapped mapped2.csv"):
+        done = subprocess.run([program, *again.split(), "-q"], capture_output=True, text=True)
+        check(done.returncode == 0, f"voxelcore {again}\n{done.stderr}")
+    check(Path("mapped2.csv").read_text().splitlines()[1:] == Path("mapped.csv").read_text().splitlines()[1:],
+          "points of a table with units are mapped otherwise")  # fmt: skip
+
+
 def check_columns(page, record):
     headings = re.findall(r"(?m)^### `([^`]+)`$", page)
     check(sorted(headings) == sorted(TABLES), f"tables of arrays.md: {sorted(set(headings) ^ set(TABLES))}")
@@ -158,24 +190,21 @@ def check_columns(page, record):
             written = next(csv.reader(stream))
         place = re.search(rf"(?m)^### `{re.escape(heading)}`\n\n(column \|.*\n--- .*\n(?:`.*\n)*)", page)
         check(place, f"arrays.md has no table of {heading}")
-        if columns_file:
-            columns = json.loads(Path(columns_file).read_text())[key]
-            check(list(columns) == written, f"{columns_file} explains {list(columns)}, but {file} has {written}")
-            check(all(told["Description"] or name[-1] in "yz" for name, told in columns.items()),
-                  f"{columns_file} does not say what all columns of {file} mean")  # fmt: skip
-            if record:
-                page = page[:place.start(1)] + table_text(columns) + page[place.end(1):]
-            else:
-                same = place[1] == table_text(columns)
-                check(same, f"arrays.md tells of {heading} other than {columns_file}; run this test with --record")
+        columns = columns_of(columns_file, key)
+        check(list(columns) == written, f"{columns_file} explains {list(columns)}, but {file} has {written}")
+        if record:
+            page = page[:place.start(1)] + table_text(columns) + page[place.end(1):]
+        else:
+            same = place[1] == table_text(columns)
+            check(same, f"arrays.md tells of {heading} other than {columns_file}; run this test with --record")
         rows = [row.split(" | ")[0] for row in place[1].splitlines()[2:]]
         if not record:
             names = [name for row in rows for name in named(row)]
             check([name for name in written if name not in FIRST or name in names] == names,
                   f"arrays.md: columns of {heading} are {written}, not {names}")  # fmt: skip
     files = {str(path) for path in Path().rglob("*.csv")}
-    known = {file for file, _, _ in TABLES.values()} | OF_REPORTS | INPUTS
-    heads = {tuple(open(file).readline().strip().split(",")) for file in known - OF_REPORTS}
+    known = {file for file, _, _ in TABLES.values()} | set(OF_REPORTS) | INPUTS
+    heads = {tuple(open(file).readline().strip().split(",")) for file in known - set(OF_REPORTS)}
     for file in sorted(files - known):
         check(tuple(open(file).readline().strip().split(",")) in heads, f"arrays.md does not know the table {file}")
     report = flat_keys(json.loads(next(Path("cohort").glob("sub-*/*_report.json")).read_text()), "", set())
@@ -206,6 +235,9 @@ def main():
                 check("arrays.md" in str(fault), str(fault))
             else:
                 check(False, f"{change} is not noticed")
+        Path("units").mkdir()
+        os.chdir("units")
+        check_units(program)
         os.chdir("/")
 
 

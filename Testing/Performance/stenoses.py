@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Stenoses and bulges told by SectionRadius, on straight tubes drawn afresh in random directions.
+"""Stenoses and bulges told by radius, on straight tubes drawn afresh in random directions.
 usage: PYTHONPATH=BUILD/python stenoses.py [BODIES [SEED]]   (python3-numpy)
 Radii of 1.5 to 4 mm become 30 to 90 % less, or 30 to 150 % more, in the shape of a Gaussian of standard deviation 1 to
 5 mm. Prints the seed and, per size of voxels, how far the degree of a stenosis by the table's least radius is off, in
@@ -46,7 +46,7 @@ def main():
                 skeleton = voxelcore.skeleton(mask.astype(np.uint8), spacing=spacing)
                 if skeleton.numbers["branches"] != 1:
                     continue
-                least, most = skeleton.section_radius.min(), skeleton.section_radius.max()
+                least, most = skeleton.radius.min(), skeleton.radius.max()
                 if kind == "stenosis":
                     errors.append(100 * ((1 - least / radius) - depth))
                 elif kind == "bulge":

@@ -138,7 +138,7 @@ def test_precomputed_skeletons_are_those_of_the_specification(scan, tmp_path):
             used = numpy.unique(curve.branch_points)
             wanted = (curve.points[used] * 1e6).astype("f4")
             assert numpy.array_equal(vertices[order], wanted[numpy.lexsort(wanted.T)])
-            radii = (curve.section_radius[used] * 1e6).astype("f4")
+            radii = (curve.radius[used] * 1e6).astype("f4")
             assert numpy.allclose(attributes["radius"][order], radii[numpy.lexsort(wanted.T)], rtol=1e-6)
             length = numpy.linalg.norm(vertices[pairs[:, 0]] - vertices[pairs[:, 1]], axis=1).sum()
             assert abs(length / 1e6 - curve.numbers["total_length"]) < 1e-4 * length

@@ -43,7 +43,7 @@ def plot_skeleton(skeleton, axes=None):
     for begin, end in zip(skeleton.branch_offsets[:-1], skeleton.branch_offsets[1:]):
         points = skeleton.branch_points[begin:end]
         lines += list(numpy.stack([skeleton.points[points[:-1]], skeleton.points[points[1:]]], 1))
-        radii.append((skeleton.section_radius[points[:-1]] + skeleton.section_radius[points[1:]]) / 2)
+        radii.append((skeleton.radius[points[:-1]] + skeleton.radius[points[1:]]) / 2)
     collection = art.Line3DCollection(lines, array=numpy.concatenate(radii) if radii else numpy.zeros(0), linewidths=2)
     axes.add_collection3d(collection)
     return _frame(axes, skeleton.points, skeleton, collection, "radius")

@@ -74,7 +74,7 @@ def _told(result):
 
 def networkx(skeleton):
     graph = library("networkx", "networkx").MultiGraph(label=skeleton.label, unit=skeleton.unit)
-    places, sections = skeleton.points, skeleton.section_radius
+    places, sections = skeleton.points, skeleton.radius
     for node, point in enumerate(skeleton.node_points):
         graph.add_node(
             node,
@@ -134,7 +134,7 @@ def osteoid(skeleton, scale):
     return library("osteoid", "osteoid").Skeleton(
         vertices=(skeleton.points * scale).astype(numpy.float32),
         edges=edges.astype(numpy.uint32),
-        radii=(skeleton.section_radius * scale).astype(numpy.float32),
+        radii=(skeleton.radius * scale).astype(numpy.float32),
         segid=skeleton.label,
         space="physical",
     )

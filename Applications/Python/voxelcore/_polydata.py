@@ -68,7 +68,7 @@ def of_skeleton(skeleton):
     data.SetLines(_cells(skeleton.branch_offsets, skeleton.branch_points))
     data.SetPolys(_cells(skeleton.face_offsets, skeleton.face_vertices))
     _add(data.GetPointData(), "Radius", skeleton.radius)
-    _add(data.GetPointData(), "SectionRadius", skeleton.section_radius)
+    _add(data.GetPointData(), "BallRadius", skeleton.ball_radius)
     _add(data.GetPointData(), "ErosionThickness", skeleton.erosion_thickness)
     numbers = numpy.full(len(alone) + branches + faces, -1, numpy.int64)
     numbers[len(alone) : len(alone) + branches] = numpy.arange(branches)

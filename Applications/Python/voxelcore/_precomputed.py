@@ -21,7 +21,7 @@ def skeleton_bytes(skeleton):
     scale = _nanometres(skeleton)
     edges = _exchange.skeleton_edges(skeleton).astype("<u4")
     points = (skeleton.points * scale).astype("<f4")
-    radii = (skeleton.section_radius * scale).astype("<f4")
+    radii = (skeleton.radius * scale).astype("<f4")
     return struct.pack("<II", len(points), len(edges)) + points.tobytes() + edges.tobytes() + radii.tobytes()
 
 

@@ -24,13 +24,13 @@ class Skeleton(Result):
 
     @property
     def radius(self):
-        """(n,) float64: radius of the largest ball in the voxels around each point, mm."""
+        """(n,) float64: radius of a round tube with the body's cross-section area at each point, mm."""
         return self._data.radius
 
     @property
-    def section_radius(self):
-        """(n,) float64: radius of a round tube with the body's cross-section area at each point, mm."""
-        return self._data.section_radius
+    def ball_radius(self):
+        """(n,) float64: radius of the largest ball in the voxels around each point, mm."""
+        return self._data.ball_radius
 
     @property
     def erosion_thickness(self):
@@ -162,8 +162,7 @@ class Skeleton(Result):
 
     def to_networkx(self):
         """A networkx.MultiGraph (package networkx). Nodes have pos (LPS mm), radius and kind; edges, with the branch's
-        number as key, its columns of measure(), its points ((p, 3), LPS mm) and their radii. Radii are those of round
-        cross-sections (section_radius)."""
+        number as key, its columns of measure(), its points ((p, 3), LPS mm) and their radii."""
         return _exchange.networkx(self)
 
     @property

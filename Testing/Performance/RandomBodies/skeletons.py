@@ -22,7 +22,7 @@ def by_voxelcore(voxelcore, shape, spacing, options):
     tips = numpy.asarray(skeleton.node_points)[numpy.asarray(skeleton.node_kinds) == 0]
     lines = numpy.split(numpy.asarray(skeleton.branch_points), numpy.asarray(skeleton.branch_offsets)[1:-1])
     return Curves(numpy.asarray(skeleton.points), lines, tips, numbers["total_length"],
-                  numbers["cycles"], numpy.asarray(skeleton.section_radius))
+                  numbers["cycles"], numpy.asarray(skeleton.radius))
 
 
 def by_thinning(shape, spacing):

@@ -121,8 +121,9 @@ TEST_F(SkeletonFilesOfJobs, APrecomputedFolderHasAFileALabelInNanometres)
 
 TEST_F(SkeletonFilesOfJobs, ATableTakesThePlaceOfTheBranches)
 {
-  EXPECT_EQ(Write(At("out.vtp"), { At("mine.csv"), { "csv" } }),
-            (std::set<std::string>{ "out.vtp", "mine.csv", "out_summary.csv", "out_columns.json" }));
+  EXPECT_EQ(
+    Write(At("out.vtp"), { At("mine.csv"), { "csv" } }),
+    (std::set<std::string>{ "out.vtp", "mine.csv", "mine_columns.json", "out_summary.csv", "out_columns.json" }));
 }
 
 TEST_F(SkeletonFilesOfJobs, AnOutputOfCsvMeansTablesAlone)

@@ -134,6 +134,33 @@ TEST(WriteLabelVolume, ReplacesAnOlderFile)
   EXPECT_EQ(ReadLabelVolume(folder / "a.nrrd").labels.size(), 1U);
 }
 
+TEST(WriteLabelVolume, OmeZarrHoldsAxesThatLieAlongThoseOfThePatient)
+{
+  ImageGeometry geometry = Geometry();
+  geometry.direction = { 0, -1, 0, 0, 0, 1, -1, 0, 0 };
+  const std::vector<LabelShape> labels{ Blob(3, { { 1, 2, 3 }, { 70, 5, 6 } }),
+                                        Blob(5000000000, { { 0, 10, 0 }, { 90, 10, 10 } }) };
+  const TempFolder              folder;
+  for (int again = 0; again < 2; ++again) // replaces the older store, too
+  {
+    WriteLabelVolume(folder / "a.ome.zarr", geometry, labels);
+    const LabelMap volume = ReadLabelVolume(folder / "a.ome.zarr");
+    ASSERT_EQ(volume.labels.size(), 2U);
+    for (std::size_t l = 0; l < 2; ++l)
+    {
+      EXPECT_EQ(volume.labels[l].value, labels[l].value);
+      EXPECT_EQ(volume.labels[l].voxels, labels[l].voxels);
+      EXPECT_EQ(volume.labels[l].shape.Box().lower, CropToVoxels(labels[l].shape).Box().lower);
+    }
+    ExpectNear(volume.geometry.spacing, geometry.spacing, 1e-12);
+    ExpectNear(volume.geometry.origin, geometry.origin, 1e-12);
+    EXPECT_EQ(volume.geometry.direction, geometry.direction);
+    EXPECT_EQ(FilesIn(folder), 1U);
+  }
+  EXPECT_THROW(WriteLabelVolume(folder / "b.ome.zarr", Geometry(), labels), UsageError);
+  EXPECT_EQ(FilesIn(folder), 1U);
+}
+
 TEST(WriteLabelVolume, AFullDiskIsSaidInOneLineAndLeavesNothing)
 {
   // A limit on the size of files stands in for the end of a disk.

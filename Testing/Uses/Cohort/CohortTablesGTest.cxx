@@ -30,7 +30,18 @@ TEST(CohortTables, ColumnsAreTheUnionOfTheRowsAndTextIsDisarmed)
   Row first;
   Flatten(Row::parse(R"({"a":{"b":[1,2.5]},"t":"=1","n":null,"x":-1})"), "", {}, first);
   const Row second = { { "t", "ok,\"q\"" }, { "z", true } };
-  EXPECT_EQ(CsvTable({ first, second }), "a_b_0,a_b_1,t,n,x,z\n1,2.5,'=1,,-1,\n,,\"ok,\"\"q\"\"\",,,true\n");
+  EXPECT_EQ(CsvTable({ first, second }, ColumnsOf({ first, second }), {}),
+            "a_b_0,a_b_1,t,n,x,z\n1,2.5,'=1,,-1,\n,,\"ok,\"\"q\"\"\",,,true\n");
+}
+
+TEST(CohortTables, UnitsAreThoseThatNamesEndIn)
+{
+  const Row row = { { "id", "a" },         { "volume_mm3", 1 },   { "pruned_0_area_vox2", 2 },
+                    { "spacing_mm_0", 3 }, { "seconds_read", 4 }, { "peak_memory_mb", 5 },
+                    { "dimm", 6 } };
+  EXPECT_TRUE(CsvTable({ row }, ColumnsOf({ row }), SpatialUnit::Millimetres)
+                .starts_with("id,volume_mm3 [mm^3],pruned_0_area_vox2 [vox^2],spacing_mm_0 [mm],seconds_read [s],"
+                             "peak_memory_mb [MB],dimm\n"));
 }
 
 TEST(CohortTables, OneFarValueOfALabelIsMarkedWithItsDirection)

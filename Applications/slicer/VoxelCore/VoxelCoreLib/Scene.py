@@ -73,7 +73,7 @@ def arraysOf(node):
     """Point arrays that a model can be coloured by."""
     data = node.GetPolyData().GetPointData()
     names = [data.GetArrayName(index) for index in range(data.GetNumberOfArrays())]
-    return [name for name in ("Thickness", "SectionRadius", "Radius", "Lambda", "Tolerance", "ErosionThickness")
+    return [name for name in ("Thickness", "Radius", "BallRadius", "Lambda", "Tolerance", "ErosionThickness")
             if name in names]
 
 

@@ -46,8 +46,7 @@ def addPointArray(model, name, values):
 
 def toleranceRange(model):
     """What a slider can run over, mm: from the tolerance the model was made with to the last that takes anything away.
-    None without the array `Tolerance`. What never goes has the diagonal of its label's box, the greatest
-    value."""
+    None without the array `Tolerance`. What never goes has the greatest value."""
     values = array(model.GetCellData(), "Tolerance")
     if values is None or len(values) == 0:
         return None

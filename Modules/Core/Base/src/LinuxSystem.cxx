@@ -168,7 +168,7 @@ RemoveNow(const char * path, bool withContents)
   {
     if (withContents)
     {
-      RemoveFilesIn(AT_FDCWD, path, 3);
+      RemoveFilesIn(AT_FDCWD, path, 6); // chunks of a Zarr store lie as deep
     }
     rmdir(path);
   }

@@ -273,6 +273,7 @@ TolerancesOfTriangles(const CellComplex &               triangles,
   {
     RaiseToRemoval(triangles, values);
   }
+  RaiseTolerances(values, height);
   return values;
 }
 

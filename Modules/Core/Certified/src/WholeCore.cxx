@@ -21,11 +21,18 @@ namespace voxelcore
 namespace
 {
 
-/** As ended in files: what never goes, and what would go beyond the diagonal of the body's box, has that height. */
+/** As ended in files: what never goes, and what would go beyond the diagonal of the body's box, has a height greater
+ *  by a hundredth than all others: a slider can tell it from them, and a range of colours stays as it is. */
 void
 EndTolerances(ToleranceValues & values, const CertifiedShape & shape)
 {
-  const double end = BodyDiagonal(shape);
+  const double diagonal = BodyDiagonal(shape);
+  double       greatest = 0;
+  for (const double value : values.vertices)
+  {
+    greatest = value < diagonal ? std::max(greatest, value) : greatest;
+  }
+  const double end = greatest > 0 ? std::min(1.01 * greatest, diagonal) : diagonal;
   for (auto * one : { &values.vertices, &values.edges, &values.faces })
   {
     RunInParts(one->size() > 10000, one->size(), [&](std::size_t first, std::size_t last) {

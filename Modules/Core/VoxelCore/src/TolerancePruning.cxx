@@ -227,17 +227,35 @@ LargestTouchingBalls(const VoxelShape &                shape,
   return balls;
 }
 
+double
+GreatestTolerance(const MedialComplex & core)
+{
+  const auto & values = core.tolerances.vertices;
+  return values.empty() ? 0 : *std::ranges::max_element(values);
+}
+
+void
+RaiseTolerances(ToleranceValues & values, double height)
+{
+  for (auto * one : { &values.vertices, &values.edges, &values.faces })
+  {
+    std::ranges::transform(*one, one->begin(), [&](double value) { return std::max(value, height); });
+  }
+}
+
 LiveElements
 LeftByTolerance(const MedialComplex & core, double height)
 {
   const ToleranceValues & values = core.tolerances;
+  height = std::min(height, GreatestTolerance(core));
   return { AtLeast(values.vertices, height), AtLeast(values.edges, height), AtLeast(values.faces, height) };
 }
 
 MedialComplex
 PruneByTolerance(const MedialComplex & core, double height)
 {
-  return ExtractPart(core, LeftByTolerance(core, height));
+  std::vector<ElementIndex> vertices;
+  return PruneByTolerance(core, height, vertices);
 }
 
 MedialComplex
@@ -246,6 +264,7 @@ PruneByTolerance(const MedialComplex & core, double height, std::vector<ElementI
   PartElements  elements;
   MedialComplex left = ExtractPart(core, LeftByTolerance(core, height), elements);
   vertices = std::move(elements.vertices);
+  RaiseTolerances(left.tolerances, height);
   return left;
 }
 

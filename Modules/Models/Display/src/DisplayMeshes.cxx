@@ -191,7 +191,7 @@ CurvePolyData(const DisplayLabel & label, PictureColoring coloring, double scale
   for (std::size_t point = 0; point < graph.positions.size(); ++point)
   {
     points->InsertNextPoint(graph.positions[point].data());
-    thickness->InsertNextValue(static_cast<float>(std::max(least, scale * graph.radius[point])));
+    thickness->InsertNextValue(static_cast<float>(std::max(least, scale * SectionRadii(graph)[point])));
   }
   vtkNew<vtkPolyData> all;
   all->SetPoints(points);

@@ -49,7 +49,7 @@ MedialArrays(const DisplayLabel & label)
 ValueArrays
 CurveArrays(const DisplayLabel & label)
 {
-  return { &label.curves.radius, nullptr, &label.curves.erosionThickness, nullptr };
+  return { &SectionRadii(label.curves), nullptr, &label.curves.erosionThickness, nullptr };
 }
 
 /** Takes all values into `range`'s least and greatest, those too which no colour goes by as they are of points: the

@@ -86,7 +86,7 @@ void
 AppendCurves(const DisplayLabel & label, PictureColoring coloring, std::vector<WeightedValue> & values)
 {
   const SkeletonGraph & graph = label.curves;
-  VertexWeights         weights(graph.positions, graph.radius);
+  VertexWeights         weights(graph.positions, SectionRadii(graph));
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
     const auto points = graph.Branch(branch);
@@ -133,7 +133,7 @@ CurveValues(const DisplayLabel & label, PictureColoring coloring)
     case PictureColoring::ErosionThickness:
       return label.curves.erosionThickness;
     default:
-      return label.curves.radius;
+      return SectionRadii(label.curves);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "ModelCells.h"
 #include "ModelSink.h"
+#include "voxelcore/VoxelCore/TolerancePruning.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,6 +17,7 @@ struct PartCells
   std::uint64_t             firstPoint;
   std::vector<ElementIndex> verts; ///< vertices that are cells
   std::vector<ElementIndex> lines; ///< edges that are cells
+  double                    never; ///< tolerance of what never goes
 };
 
 std::vector<PartCells>
@@ -25,7 +27,7 @@ FindCells(const MedialModel & model)
   std::uint64_t          points = 0;
   for (const ModelPart & part : model.parts)
   {
-    all.push_back({ &part, points, VertexCells(part.core), LineCells(part.core) });
+    all.push_back({ &part, points, VertexCells(part.core), LineCells(part.core), GreatestTolerance(part.core) });
     points += part.core.cells.vertexCount;
   }
   return all;
@@ -37,6 +39,28 @@ HaveTolerances(const std::vector<PartCells> & parts)
   return !parts.empty() &&
          std::all_of(parts.begin(), parts.end(), [](const PartCells & one) { return one.part->core.HasTolerances(); });
 }
+
+/** In a file what never goes has one tolerance in all parts, so that no label goes before another one's branches do. */
+class CommonTolerance
+{
+public:
+  explicit CommonTolerance(const std::vector<PartCells> & parts)
+  {
+    for (const PartCells & one : parts)
+    {
+      m_Never = std::max(m_Never, one.never);
+    }
+  }
+
+  double
+  operator()(const PartCells & part, double value) const
+  {
+    return value == part.never ? m_Never : value;
+  }
+
+private:
+  double m_Never = 0;
+};
 
 std::uint64_t
 PointCount(const std::vector<PartCells> & parts)
@@ -63,10 +87,14 @@ AddPoints(ModelSink & sink, const std::vector<PartCells> & parts)
   }
   if (HaveTolerances(parts))
   {
-    double * b = sink.Reals("PointData", "Tolerance", count);
+    double *              b = sink.Reals("PointData", "Tolerance", count);
+    const CommonTolerance inFile(parts);
     for (const PartCells & one : parts)
     {
-      b = std::copy(one.part->core.tolerances.vertices.begin(), one.part->core.tolerances.vertices.end(), b);
+      for (const double value : one.part->core.tolerances.vertices)
+      {
+        *b++ = inFile(one, value);
+      }
     }
   }
 }
@@ -182,29 +210,35 @@ struct Measures
   const std::vector<double> & faces;
 };
 
-template <typename MeasuresOf>
+template <typename MeasuresOf, typename InFile>
 void
-AddMeasure(ModelSink & sink, const std::vector<PartCells> & parts, const char * name, MeasuresOf && measuresOf)
+AddMeasure(ModelSink &                    sink,
+           const std::vector<PartCells> & parts,
+           const char *                   name,
+           MeasuresOf &&                  measuresOf,
+           InFile &&                      inFile)
 {
   double * value = sink.Reals("CellData", name, CellCount(parts));
   for (const PartCells & one : parts)
   {
     for (const ElementIndex vertex : one.verts)
     {
-      *value++ = measuresOf(one.part->core).vertices[vertex];
+      *value++ = inFile(one, measuresOf(one.part->core).vertices[vertex]);
     }
   }
   for (const PartCells & one : parts)
   {
     for (const ElementIndex edge : one.lines)
     {
-      *value++ = measuresOf(one.part->core).edges[edge];
+      *value++ = inFile(one, measuresOf(one.part->core).edges[edge]);
     }
   }
   for (const PartCells & one : parts)
   {
-    const auto & faces = measuresOf(one.part->core).faces;
-    value = std::copy(faces.begin(), faces.end(), value);
+    for (const double face : measuresOf(one.part->core).faces)
+    {
+      *value++ = inFile(one, face);
+    }
   }
 }
 
@@ -230,14 +264,16 @@ ForCells(const std::vector<PartCells> & parts, Visit && visit)
 void
 AddCellArrays(ModelSink & sink, const std::vector<PartCells> & parts)
 {
-  AddMeasure(sink, parts, "Lambda", [](const MedialComplex & core) {
+  const auto lambdas = [](const MedialComplex & core) {
     return Measures{ core.vertexLambda, core.edgeLambda, core.faceLambda };
-  });
+  };
+  AddMeasure(sink, parts, "Lambda", lambdas, [](const PartCells &, double value) { return value; });
   if (HaveTolerances(parts))
   {
-    AddMeasure(sink, parts, "Tolerance", [](const MedialComplex & core) {
+    const auto tolerances = [](const MedialComplex & core) {
       return Measures{ core.tolerances.vertices, core.tolerances.edges, core.tolerances.faces };
-    });
+    };
+    AddMeasure(sink, parts, "Tolerance", tolerances, CommonTolerance(parts));
   }
   const std::uint64_t count = CellCount(parts);
   std::int64_t *      label = sink.Wholes("CellData", "Label", count);

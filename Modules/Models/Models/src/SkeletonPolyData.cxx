@@ -42,9 +42,11 @@ ReadSkeleton(ModelSource & file)
   RequireFit(file.ReadText("FieldData", "SPACE") == "LPS" && unit, "it is not in LPS mm or voxels");
   RequireFit(file.Has("PointData", "ErosionThickness") && file.Has("CellData", "BranchId"), "it holds no skeleton");
   const std::vector<double> positions = file.Read<double>("Points", "Points", 3);
-  const std::vector<double> radius = file.Read<double>("PointData", "Radius");
-  RequireFit(file.Has("PointData", "SectionRadius"), "an older version wrote it; make it anew");
-  const std::vector<double> sections = file.Read<double>("PointData", "SectionRadius");
+  // Of 0.2: Radius was that of the ball.
+  const bool isOld = file.Has("PointData", "SectionRadius");
+  RequireFit(isOld || file.Has("PointData", "BallRadius"), "an older version wrote it; make it anew");
+  const std::vector<double> radius = file.Read<double>("PointData", isOld ? "Radius" : "BallRadius");
+  const std::vector<double> sections = file.Read<double>("PointData", isOld ? "SectionRadius" : "Radius");
   const std::vector<double> thickness = file.Read<double>("PointData", "ErosionThickness");
   const auto                labels = file.Read<std::int64_t>("CellData", "Label");
   const auto                components = file.Read<std::int64_t>("CellData", "Component");
@@ -59,7 +61,7 @@ ReadSkeleton(ModelSource & file)
   RequireFit(std::all_of(positions.begin(), positions.end(), [](double x) { return std::isfinite(x); }),
              "a coordinate is no finite number");
   RequireFit(areLengths(radius, largest) && areLengths(sections, largest),
-             "a Radius or SectionRadius is below 0 or no finite number");
+             "a Radius or BallRadius is below 0 or no finite number");
   // Of closed surfaces it is infinite.
   RequireFit(areLengths(thickness, std::numeric_limits<double>::infinity()),
              "an ErosionThickness is below 0 or no number");
@@ -256,9 +258,9 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
 
   content.texts = { { "SPACE", "LPS" }, { "Units", UnitName(model.unit) }, { "Provenance", model.provenance } };
   content.positions = std::move(positions);
-  content.pointArrays = { { "Radius", radius },
+  content.pointArrays = { { "Radius", sections },
+                          { "BallRadius", radius },
                           { "MaximumInscribedSphereRadius", radius },
-                          { "SectionRadius", sections },
                           { "ErosionThickness", thickness } };
   if (!pointLabels.empty())
   {

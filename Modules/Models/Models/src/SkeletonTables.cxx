@@ -143,10 +143,10 @@ CsvField(const std::string & given)
 }
 
 void
-WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
+WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kBranchColumns);
+  file << HeadLine(kBranchColumns, units);
   for (const SkeletonPart & part : model.parts)
   {
     for (std::size_t branch = 0; branch < part.table.branches.size(); ++branch)
@@ -180,10 +180,10 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model)
 }
 
 void
-WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
+WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kSummaryColumns);
+  file << HeadLine(kSummaryColumns, units);
   for (const SkeletonPart & part : model.parts)
   {
     if (!part.network)
@@ -204,10 +204,10 @@ WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model)
 }
 
 void
-WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model)
+WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kContactColumns);
+  file << HeadLine(kContactColumns, units);
   const auto addPlace = [&](const std::array<double, 3> & place) {
     for (const double coordinate : place)
     {

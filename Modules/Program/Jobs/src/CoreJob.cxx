@@ -8,6 +8,7 @@
 #include "voxelcore/Jobs/JobTools.h"
 #include "SkeletonBodies.h"
 #include "voxelcore/Jobs/LabelLoop.h"
+#include "voxelcore/Jobs/LabelVolumes.h"
 #include "ResultFiles.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/SystemCalls.h"
@@ -113,6 +114,7 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction)
   if (options.table)
   {
     transaction.CheckTarget(*options.table);
+    transaction.CheckTarget(ColumnsBeside(*options.table));
   }
   if (options.crossCheck && !HasEngine(Engine::TetGen))
   {
@@ -408,7 +410,8 @@ StageCoreJob(const CoreOptions & options,
   }
   if (options.table)
   {
-    WriteTextFile(transaction.Stage(*options.table), LabelTableCsv(report));
+    WriteTextFile(transaction.Stage(*options.table), LabelTableCsv(report, context.Heads(report.input.geometry.unit)));
+    WriteTextFile(transaction.Stage(ColumnsBeside(*options.table)), LabelTableColumnsJson(report));
   }
   return result;
 }

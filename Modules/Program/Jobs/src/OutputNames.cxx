@@ -16,7 +16,7 @@ bool
 IsFolderOutput(const fs::path & output)
 {
   std::error_code ignored; // whoever writes there says what is wrong
-  return !output.has_filename() || fs::is_directory(output, ignored);
+  return !output.has_filename() || (fs::is_directory(output, ignored) && output.extension() != ".zarr");
 }
 
 std::string
@@ -134,9 +134,13 @@ ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<Tolerance>
 fs::path
 FileOutputPath(const fs::path & output, const std::string & suffix)
 {
-  fs::path name = output.parent_path() / output.stem();
-  name += suffix + output.extension().string();
-  return name;
+  const std::string name = output.filename().string();
+  std::size_t       end = name.size() - output.extension().string().size();
+  for (const std::string_view ending : { ".nii.gz", ".ome.zarr" })
+  {
+    end = name.ends_with(ending) ? name.size() - ending.size() : end;
+  }
+  return output.parent_path() / (name.substr(0, end) + suffix + name.substr(end));
 }
 
 fs::path

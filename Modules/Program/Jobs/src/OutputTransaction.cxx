@@ -53,6 +53,16 @@ IsNotThere(const std::error_code & error)
   return !error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory;
 }
 
+/** Folders that may be replaced as files are: a Zarr store, and the dataset that a batch writes. */
+bool
+IsStore(const fs::path & path)
+{
+  std::error_code ignored;
+  return path.extension() == ".zarr"
+           ? fs::exists(path / "zarr.json", ignored) || fs::exists(path / ".zgroup", ignored)
+           : path.filename() == "bids" && fs::exists(path / "dataset_description.json", ignored);
+}
+
 [[noreturn]] void
 ThrowOutputError(const fs::path & path, const std::string & why)
 {
@@ -144,7 +154,7 @@ OutputTransaction::CheckTarget(const fs::path & target) const
                      "cannot write into the folder " + directory.string() + ": " +
                        (error ? error.message() : std::strerror(errno)));
   }
-  if (fs::is_directory(target, error))
+  if (fs::is_directory(target, error) && !IsStore(target))
   {
     ThrowOutputError(target, "cannot write: this is a folder; give a file name");
   }
@@ -259,12 +269,18 @@ OutputTransaction::Commit()
 {
   const CommitMark mark(m_Registry);
   AddCompanions();
-  std::vector<fs::path> fresh;
-  const auto            undo = [&fresh] {
+  std::vector<fs::path>                      fresh;
+  std::vector<std::pair<fs::path, fs::path>> former; ///< stores that were replaced, and their names until the end
+  const auto                                 undo = [&] {
     std::error_code ignored;
     for (const fs::path & path : fresh)
     {
-      fs::remove(path, ignored);
+      fs::remove_all(path, ignored);
+    }
+    for (const auto & [target, aside] : former)
+    {
+      fs::remove_all(target, ignored);
+      fs::rename(aside, target, ignored);
     }
   };
   for (const Item & item : m_Items)
@@ -280,7 +296,15 @@ OutputTransaction::Commit()
       undo();
       ThrowOutputError(item.target, "appeared while the job ran; give --force to replace it, or another name");
     }
-    fs::rename(item.temporary, item.target, error);
+    if (replaces && IsStore(item.target)) // no folder takes the name of one that holds something
+    {
+      former.emplace_back(item.target, TemporaryName(item.target.string() + ".former"));
+      fs::rename(item.target, former.back().second, error);
+    }
+    if (!error)
+    {
+      fs::rename(item.temporary, item.target, error);
+    }
     if (error)
     {
       undo();
@@ -307,6 +331,10 @@ OutputTransaction::Commit()
       m_Written.push_back(item.target);
     }
     Forget(item.temporary);
+  }
+  for (const auto & [target, aside] : former)
+  {
+    fs::remove_all(aside, ignored);
   }
   for (const fs::path & directory : m_Directories)
   {

@@ -46,7 +46,7 @@ SkeletonBodies::SkeletonBodies(const fs::path &        output,
   {
     return;
   }
-  for (const char * ending : { "_sections.csv", "_sections.vtp", "_sections.json", "_lesions.csv" })
+  for (const char * ending : { "_sections.csv", "_sections.vtp", "_lesions.csv" })
   {
     m_Transaction.CheckTarget(WithEnding(m_Stem, ending));
   }
@@ -191,10 +191,10 @@ SkeletonBodies::Finish()
   {
     return;
   }
-  WriteSectionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_sections.csv")), m_Sections);
+  const HeadUnits units = m_Targets.units ? HeadUnits(m_Geometry.unit) : HeadUnits();
+  WriteSectionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_sections.csv")), m_Sections, units);
   WriteSectionVtp(m_Transaction.Stage(WithEnding(m_Stem, "_sections.vtp")), m_Sections, m_Geometry.unit);
-  WriteLesionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_lesions.csv")), m_Sections);
-  WriteTextFile(m_Transaction.Stage(WithEnding(m_Stem, "_sections.json")), SectionColumnsJson(m_Geometry.unit));
+  WriteLesionCsv(m_Transaction.Stage(WithEnding(m_Stem, "_lesions.csv")), m_Sections, units);
 }
 
 } // namespace voxelcore

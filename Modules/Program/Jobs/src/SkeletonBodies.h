@@ -15,8 +15,8 @@
 namespace voxelcore
 {
 
-/** Keeps the bodies until their skeletons come. Of sections writes OUT_sections.csv, OUT_sections.vtp, OUT_lesions.csv
- *  and OUT_sections.json, which explains the columns; and the volumes that are asked for. */
+/** Keeps the bodies until their skeletons come. Of sections writes OUT_sections.csv, OUT_sections.vtp and
+ *  OUT_lesions.csv; and the volumes that are asked for. */
 class SkeletonBodies
 {
 public:

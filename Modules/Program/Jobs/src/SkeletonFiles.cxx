@@ -3,9 +3,12 @@
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/LengthUnit.h"
 #include "voxelcore/Jobs/JobTools.h"
+#include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/ReadInput.h"
+#include "voxelcore/Models/TableColumns.h"
 #include "voxelcore/Vessels/FlowFiles.h"
+#include "voxelcore/Vessels/SectionTables.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -104,6 +107,10 @@ SkeletonFiles::SkeletonFiles(fs::path output, fs::path input, SkeletonTargets wa
   {
     m_Transaction.CheckTarget(*m_Targets.table);
   }
+  for (const auto & [file, text] : m_ToFolder ? std::map<fs::path, std::string>() : Columns(SpatialUnit::Millimetres))
+  {
+    m_Transaction.CheckTarget(file);
+  }
   if (m_ToFolder)
   {
     m_Transaction.MakeDirectory(m_Output);
@@ -168,7 +175,6 @@ SkeletonFiles::FlowTargets() const
     else if (!IsFlowJson())
     {
       targets.push_back(BesideFlow("_nodes.csv"));
-      targets.push_back(BesideFlow("_columns.json"));
     }
   }
   return targets;
@@ -200,6 +206,35 @@ SkeletonFiles::WritePrecomputed(const SkeletonModel & model)
 {
   WritePrecomputedSkeletons([&](const std::string & name) { return m_Transaction.Stage(PrecomputedFolder() / name); },
                             model);
+}
+
+std::map<fs::path, std::string>
+SkeletonFiles::Columns(SpatialUnit unit) const
+{
+  std::map<fs::path, std::string> files;
+  const auto                      add = [&](const fs::path & table, const std::string & text) {
+    std::string & file = files[ColumnsBeside(table)];
+    file = file.empty() ? text : JoinedTables(file, text);
+  };
+  const fs::path    tables = m_ToFolder ? SkeletonTablesPath(m_Output, m_Input) : m_Output;
+  const std::string ofSkeletons = SkeletonColumnsJson(unit, m_Targets.network);
+  if (Wants("csv"))
+  {
+    add(tables, ofSkeletons);
+  }
+  if (m_Targets.table && !files.contains(ColumnsBeside(*m_Targets.table)))
+  {
+    add(*m_Targets.table, ofSkeletons);
+  }
+  if (m_Targets.sections)
+  {
+    add(tables, SectionColumnsJson(unit));
+  }
+  if (m_Targets.flow && !IsFlowJson() && !IsFlowYaml())
+  {
+    add(*m_Targets.flow, FlowColumnsJson(unit));
+  }
+  return files;
 }
 
 void
@@ -243,8 +278,11 @@ SkeletonFiles::WriteFlow(const CoreReport & report)
     }
     else
     {
-      WriteFlowCsv(target, m_Transaction.Stage(BesideFlow("_nodes.csv")), network, m_Model.parts);
-      WriteTextFile(m_Transaction.Stage(BesideFlow("_columns.json")), FlowColumnsJson(m_Model.unit));
+      WriteFlowCsv(target,
+                   m_Transaction.Stage(BesideFlow("_nodes.csv")),
+                   network,
+                   m_Model.parts,
+                   Heads(report.input.geometry.unit));
     }
   }
 }
@@ -261,7 +299,7 @@ SkeletonFiles::Beside(const fs::path & output, const std::string & ending) const
   const std::string stem = (output.parent_path() / output.stem()).string();
   if (ending == "csv")
   {
-    std::vector<fs::path> tables{ stem + "_branches.csv", stem + "_summary.csv", stem + "_columns.json" };
+    std::vector<fs::path> tables{ stem + "_branches.csv", stem + "_summary.csv" };
     if (m_Targets.network)
     {
       tables.emplace_back(stem + "_contacts.csv");
@@ -322,7 +360,12 @@ SkeletonFiles::FolderTarget(std::int64_t label, std::int64_t component) const
 std::vector<fs::path>
 SkeletonFiles::FolderTables() const
 {
-  return Wants("csv") ? Beside(SkeletonTablesPath(m_Output, m_Input), "csv") : std::vector<fs::path>();
+  auto tables = Wants("csv") ? Beside(SkeletonTablesPath(m_Output, m_Input), "csv") : std::vector<fs::path>();
+  for (const auto & [file, text] : Columns(SpatialUnit::Millimetres))
+  {
+    tables.push_back(file);
+  }
+  return tables;
 }
 
 void
@@ -351,13 +394,12 @@ SkeletonFiles::WriteTables(const fs::path & output, const SkeletonModel & model)
   const std::vector<fs::path> tables = Beside(output, "csv");
   if (!m_Targets.table) // which is written with the same rows
   {
-    WriteBranchCsv(m_Transaction.Stage(tables[0]), model);
+    WriteBranchCsv(m_Transaction.Stage(tables[0]), model, Heads(model.unit));
   }
-  WriteSummaryCsv(m_Transaction.Stage(tables[1]), model);
-  WriteTextFile(m_Transaction.Stage(tables[2]), SkeletonColumnsJson(model.unit, m_Targets.network));
-  if (tables.size() > 3)
+  WriteSummaryCsv(m_Transaction.Stage(tables[1]), model, Heads(model.unit));
+  if (tables.size() > 2)
   {
-    WriteContactsCsv(m_Transaction.Stage(tables[3]), model);
+    WriteContactsCsv(m_Transaction.Stage(tables[2]), model, Heads(model.unit));
   }
 }
 
@@ -380,7 +422,7 @@ SkeletonFiles::WriteGroup(const CoreReport &               report,
   }
   if (m_Targets.table && !m_ToFolder)
   {
-    WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_Model);
+    WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_Model, Heads(m_Model.unit));
   }
   for (const std::string & ending : m_Targets.also)
   {
@@ -448,8 +490,12 @@ SkeletonFiles::Finish(const CoreReport & report, std::vector<std::string> & note
     }
     if (m_Targets.table)
     {
-      WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_AllLabels);
+      WriteBranchCsv(m_Transaction.Stage(*m_Targets.table), m_AllLabels, Heads(m_AllLabels.unit));
     }
+  }
+  for (const auto & [file, text] : Columns(m_AllLabels.unit))
+  {
+    WriteTextFile(m_Transaction.Stage(file), text);
   }
 }
 

@@ -159,6 +159,7 @@ SkeletonTargets
 TargetsFrom(const ParameterValues & values, CommandId command)
 {
   SkeletonTargets targets;
+  targets.units = values.contains("units");
   if (values.contains("also"))
   {
     targets.also = ParseAlso(ValueOf(values, command, "also"));

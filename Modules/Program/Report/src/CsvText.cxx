@@ -134,6 +134,18 @@ FindSeparator(std::string_view text)
   return separators[static_cast<std::size_t>(most - counts.begin())];
 }
 
+std::map<std::string, std::size_t>
+ColumnPlaces(const CsvRow & head)
+{
+  std::map<std::string, std::size_t> places;
+  for (std::size_t i = 0; i < head.fields.size(); ++i)
+  {
+    const std::string & field = head.fields[i];
+    places.emplace(field.ends_with(']') ? field.substr(0, field.rfind(" [")) : field, i);
+  }
+  return places;
+}
+
 std::string
 CsvPlainField(std::string_view text)
 {

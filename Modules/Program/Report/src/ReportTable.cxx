@@ -3,6 +3,7 @@
 #include "voxelcore/Base/LengthUnit.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Models/SkeletonModel.h"
+#include "voxelcore/Models/TableColumns.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -31,6 +32,33 @@ UnitOf(const CoreReport & report, LengthOf && lengthOf)
     longest = std::max(longest, lengthOf(label));
   }
   return LengthUnit::For(longest, report.input.geometry.unit);
+}
+
+std::vector<TextColumn>
+LabelColumns(const CoreReport & report)
+{
+  const bool              byTolerance = !report.parameters.tolerances.empty();
+  std::vector<TextColumn> columns{
+    { kLabelColumn.name, "", kLabelColumn.meaning },
+    { kNameColumn.name, "", kNameColumn.meaning },
+    { "component", "", "component of a label that was split, from 1; 0: the whole label" },
+    { byTolerance ? "tolerance" : "lambda", "", "pruning of this row, as it was given" },
+    { "voxels", "", "of the shape" },
+    { "volume_mm3", "mm^3", "of these voxels" },
+    { "vertices", "", "of the medial surface" },
+    { "edges", "", "of the medial surface" },
+    { "faces", "", "of the medial surface" },
+    { "area_mm2", "mm^2", "of its faces" },
+    { "max_radius_mm", "mm", "radius of its largest ball" },
+    { "b0", "", "pieces" },
+    { "b1", "", "loops" },
+    { "b2", "", "cavities" },
+  };
+  for (TextColumn & column : columns)
+  {
+    column.name = InUnit(column.name, report.input.geometry.unit);
+  }
+  return columns;
 }
 
 } // namespace
@@ -164,11 +192,9 @@ SkeletonTable(const CoreReport & report)
 }
 
 std::string
-LabelTableCsv(const CoreReport & report)
+LabelTableCsv(const CoreReport & report, HeadUnits units)
 {
-  std::string text =
-    std::string("label,name,component,") + (report.parameters.tolerances.empty() ? "lambda" : "tolerance") +
-    InUnit(",voxels,volume_mm3,vertices,edges,faces,area_mm2,max_radius_mm,b0,b1,b2\n", report.input.geometry.unit);
+  std::string text = HeadLine(LabelColumns(report), units);
   for (const LabelRecord & label : report.labels)
   {
     for (const PrunedRecord & pruned : label.pruned)
@@ -193,6 +219,12 @@ LabelTableCsv(const CoreReport & report)
     }
   }
   return text;
+}
+
+std::string
+LabelTableColumnsJson(const CoreReport & report)
+{
+  return TablesJson({ { "labels", ColumnsJson(LabelColumns(report), report.input.geometry.unit) } });
 }
 
 } // namespace voxelcore

@@ -1,10 +1,8 @@
 #include "voxelcore/Formats/VolumeWriters.h"
 
 #include "NiftiForms.h"
-#include "voxelcore/Base/OutputFile.h"
+#include "PackedFile.h"
 #include "voxelcore/Base/TextFields.h"
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -18,9 +16,6 @@ namespace voxelcore
 namespace
 {
 
-// Label volumes shrink to a hundredth at any level; the lower ones are several times faster.
-constexpr int kLevel = 4;
-
 // Labels of one byte are runs of equal bytes: looking for nothing else takes half the time. One label takes less room
 // so, many up to 40 % more.
 int
@@ -29,105 +24,14 @@ Strategy(const VolumeToWrite & volume)
   return PixelBytes(volume.type) == 1 && volume.layers == 1 ? Z_RLE : Z_DEFAULT_STRATEGY;
 }
 
-enum class Wrapping
+void
+WriteSlices(PackedFile & file, const VolumeToWrite & volume)
 {
-  None,
-  Zlib,
-  Gzip
-};
-
-/** A file that may be packed. */
-class PackedFile
-{
-public:
-  PackedFile(const std::filesystem::path & path, Wrapping wrapping, int strategy = Z_DEFAULT_STRATEGY)
-    : m_File(path)
-    , m_Wrapped(wrapping != Wrapping::None)
+  for (std::int64_t k = 0; k < volume.geometry.size[2]; ++k)
   {
-    if (m_Wrapped &&
-        deflateInit2(&m_Zlib, kLevel, Z_DEFLATED, wrapping == Wrapping::Gzip ? 15 + 16 : 15, 8, strategy) != Z_OK)
-    {
-      throw std::bad_alloc();
-    }
+    file.Write(volume.slice(k));
   }
-  PackedFile(const PackedFile &) = delete;
-  PackedFile &
-  operator=(const PackedFile &) = delete;
-  ~PackedFile()
-  {
-    if (m_Wrapped)
-    {
-      deflateEnd(&m_Zlib);
-    }
-  }
-
-  /** As it is, in front of anything packed. */
-  void
-  WritePlain(std::string_view text)
-  {
-    Put(text.data(), text.size());
-  }
-
-  void
-  Write(std::span<const std::byte> bytes)
-  {
-    constexpr std::size_t step = 1U << 26;
-    for (std::size_t at = 0; at < bytes.size(); at += step)
-    {
-      const auto part = bytes.subspan(at, std::min(step, bytes.size() - at));
-      m_Wrapped ? Deflate(part, Z_NO_FLUSH) : Put(part.data(), part.size());
-    }
-  }
-
-  void
-  Write(const VolumeToWrite & volume)
-  {
-    for (std::int64_t k = 0; k < volume.geometry.size[2]; ++k)
-    {
-      Write(volume.slice(k));
-    }
-  }
-
-  /** Must be called: only now is it known that everything found room. Returns the bytes in the file. */
-  std::uint64_t
-  Close()
-  {
-    if (m_Wrapped)
-    {
-      Deflate({}, Z_FINISH);
-    }
-    m_File.Finish();
-    return m_Bytes;
-  }
-
-private:
-  void
-  Deflate(std::span<const std::byte> bytes, int flush)
-  {
-    m_Zlib.next_in = reinterpret_cast<Bytef *>(const_cast<std::byte *>(bytes.data()));
-    m_Zlib.avail_in = static_cast<uInt>(bytes.size());
-    do
-    {
-      m_Zlib.next_out = m_Packed.data();
-      m_Zlib.avail_out = static_cast<uInt>(m_Packed.size());
-      deflate(&m_Zlib, flush);
-      Put(m_Packed.data(), m_Packed.size() - m_Zlib.avail_out);
-    } while (m_Zlib.avail_out == 0);
-  }
-
-  void
-  Put(const void * bytes, std::size_t count)
-  {
-    m_File.Write(bytes, count);
-    m_Bytes += count;
-  }
-
-  OutputFile         m_File;
-  bool               m_Wrapped;
-  z_stream           m_Zlib{};
-  std::vector<Bytef> m_Packed = std::vector<Bytef>(1U << 18);
-  std::uint64_t      m_Bytes = 0;
-};
+}
 
 /** All digits: what is read back is what was written. */
 std::string
@@ -240,7 +144,7 @@ WriteNrrd(const std::filesystem::path & path, const VolumeToWrite & volume)
          "\n",
          volume.fields,
          "\n"));
-  file.Write(volume);
+  WriteSlices(file, volume);
   file.Close();
 }
 
@@ -305,7 +209,7 @@ WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume)
 
   PackedFile file(path, LowerCase(path.string()).ends_with(".gz") ? Wrapping::Gzip : Wrapping::None, Strategy(volume));
   file.Write(h.Bytes());
-  file.Write(volume);
+  WriteSlices(file, volume);
   file.Close();
 }
 
@@ -318,7 +222,7 @@ WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume)
   dataPath.replace_extension(volume.compress ? ".zraw" : ".raw");
   // Programs want the packed size in the header, so the voxels go into a file of their own first.
   PackedFile data(dataPath, wrapping, Strategy(volume));
-  data.Write(volume);
+  WriteSlices(data, volume);
   const std::uint64_t bytes = data.Close();
 
   std::string matrix;

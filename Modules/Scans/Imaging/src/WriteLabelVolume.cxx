@@ -2,6 +2,7 @@
 #include "voxelcore/Base/OutputFile.h"
 #include "voxelcore/Base/TemporaryNames.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Formats/FormatOpeners.h"
 #include "voxelcore/Formats/VolumeWriters.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Imaging/LabelVolume.h"
@@ -23,7 +24,8 @@ enum class Kind
   Nrrd,
   Nifti,
   Meta,
-  Tiff
+  Tiff,
+  Zarr
 };
 
 Kind
@@ -49,8 +51,12 @@ KindOf(const std::filesystem::path & path)
   {
     return Kind::Tiff;
   }
+  if (ends(".zarr"))
+  {
+    return Kind::Zarr;
+  }
   throw UsageError(
-    Text(Printable(path.string(), 4096), ": unknown extension; give .nrrd .nii .nii.gz .mha .mhd or .tif"));
+    Text(Printable(path.string(), 4096), ": unknown extension; give .nrrd .nii .nii.gz .mha .mhd .tif or .ome.zarr"));
 }
 
 PixelType
@@ -177,8 +183,9 @@ CheckWritten(const std::filesystem::path & path,
   const ScanFile scan = OpenScan(path, options);
   bool           same = scan.geometry.size == geometry.size && scan.type == type && !scan.IsScaled();
   same = same && scan.geometry.unit == geometry.unit;
-  // NIfTI and TIFF keep single precision, TIFF of the spacing alone.
-  const double tolerance = kind == Kind::Nifti || kind == Kind::Tiff ? 1e-5 : 1e-9;
+  // NIfTI and TIFF keep single precision, TIFF of the spacing alone; OME-Zarr has words for directions.
+  const bool   isExact = kind == Kind::Nrrd || kind == Kind::Meta;
+  const double tolerance = isExact ? 1e-9 : 1e-5;
   for (std::size_t a = 0; a < 3; ++a)
   {
     same = same && std::abs(scan.geometry.spacing[a] - geometry.spacing[a]) <= tolerance * geometry.spacing[a];
@@ -249,6 +256,10 @@ public:
         std::filesystem::rename(entry.path(), m_Result.parent_path() / entry.path().filename());
       }
     }
+    if (IsZarr(m_Result)) // no folder takes the name of one that holds something
+    {
+      std::filesystem::rename(m_Result, m_Folder / "former");
+    }
     std::filesystem::rename(File(), m_Result);
   }
 
@@ -318,6 +329,9 @@ WriteVolume(const std::filesystem::path & path, Kind kind, const VolumeToWrite &
       case Kind::Tiff:
         WriteTiff(staging.File(), volume);
         break;
+      case Kind::Zarr:
+        WriteOmeZarr(staging.File(), volume);
+        break;
     }
     CheckWritten(staging.File(), kind, volume.geometry, volume.type, volume.slice);
     staging.Publish();
@@ -325,6 +339,10 @@ WriteVolume(const std::filesystem::path & path, Kind kind, const VolumeToWrite &
   catch (const OutputError &)
   {
     throw;
+  }
+  catch (const UsageError & error)
+  {
+    throw UsageError(Text(Printable(FinalName(path).string(), 4096), ": ", error.what()));
   }
   catch (const std::filesystem::filesystem_error & error)
   {
@@ -358,7 +376,13 @@ WriteLabelVolume(const std::filesystem::path &   path,
   {
     slice(k); // says where labels overlap before anything is written
   }
-  WriteVolume(path, kind, { geometry, type, slice, compress });
+  VolumeToWrite                         volume{ geometry, type, slice, compress };
+  std::map<std::int64_t, ListedLabel> & names = volume.labels.emplace();
+  for (const LabelShape & label : labels)
+  {
+    names[label.value] = { label.name, label.color };
+  }
+  WriteVolume(path, kind, volume);
 }
 
 void
@@ -398,7 +422,12 @@ WriteSlices(const std::filesystem::path &                           path,
     slice(k, values);
     return std::as_bytes(std::span<const T>(values));
   };
-  WriteVolume(path, kind, { geometry, type, bytes });
+  VolumeToWrite volume{ geometry, type, bytes };
+  if (type != PixelType::Float32)
+  {
+    volume.labels.emplace();
+  }
+  WriteVolume(path, kind, volume);
 }
 
 } // namespace

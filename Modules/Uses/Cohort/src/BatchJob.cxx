@@ -1,5 +1,6 @@
 #include "voxelcore/Cohort/BatchJob.h"
 
+#include "BidsDataset.h"
 #include "CaseJob.h"
 #include "ChildProcess.h"
 #include "Scheduler.h"
@@ -266,6 +267,11 @@ BatchOptionsFrom(const ParameterValues & values)
   }
   options.force = values.contains("force");
   options.gather = values.contains("gather");
+  options.bids = values.contains("bids");
+  if (options.bids && options.command == CommandId::Roots)
+  {
+    throw UsageError("--bids does not go with --roots; leave it out");
+  }
   if (values.contains("case"))
   {
     options.only = CountFrom(values, "case", std::size_t{ 1 } << 40U);
@@ -293,10 +299,15 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
     cases = { cases[*options.only - 1] };
   }
   RequireSense(cases, options);
+  if (options.bids)
+  {
+    RequireBidsPlaces(cases);
+  }
   BatchResult result;
   if (options.gather)
   {
-    const CohortSummary summary = GatherCohort(options.output, cases, context, Outdated(cases, options, context));
+    const CohortSummary summary =
+      GatherCohort(options.output, cases, context, Outdated(cases, options, context), options.bids);
     if (options.inputs.empty())
     {
       result.cases = summary.cases;
@@ -315,7 +326,7 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
   result = Scheduler(options, cases, context).Run();
   if (!options.only)
   {
-    AddLost(GatherCohort(options.output, cases, context, result.failed).failed, cases, result.failed);
+    AddLost(GatherCohort(options.output, cases, context, result.failed, options.bids).failed, cases, result.failed);
     result.passedOver = std::move(passedOver);
   }
   return result;

@@ -37,7 +37,7 @@ PlainPath(const fs::path & path)
 }
 
 std::vector<std::string>
-CommandLineOf(const CaseJob & job, CommandId command)
+CommandLineOf(const CaseJob & job, CommandId command, bool bids)
 {
   const std::string & folder = job.one.folder;
   const std::string   stem = (job.folder / folder).string();
@@ -53,7 +53,7 @@ CommandLineOf(const CaseJob & job, CommandId command)
              "thickness",
              scan,
              "-o",
-             stem + "_thickness.nrrd",
+             stem + (bids ? "_thickness.nii.gz" : "_thickness.nrrd"),
              "--table",
              stem + "_thickness.csv",
              "--report",
@@ -150,7 +150,7 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   auto values = one.values;
   values.insert(options.values.begin(), options.values.end()); // those of the case stay
   RequireTaken(values, options.command, one.scan + ": ");
-  job.arguments = CommandLineOf(job, options.command);
+  job.arguments = CommandLineOf(job, options.command, options.bids);
   if (options.command == CommandId::Core)
   {
     values.emplace("with-skeleton", options.skeletons ? "true" : "false");
@@ -161,7 +161,7 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   }
   else
   {
-    job.options = CommandName(options.command) + "\n";
+    job.options = CommandName(options.command) + "\n" + (options.bids ? "nii.gz\n" : "");
   }
   if (options.command == CommandId::Roots && !options.pages)
   {

@@ -5,9 +5,52 @@
 #include "voxelcore/Report/CsvText.h"
 
 #include <map>
+#include <set>
 
 namespace voxelcore
 {
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+const std::map<std::string, const char *> kOwnColumns{
+  { "id", "the case" },
+  { "folder", "where its results are" },
+  { "status", "done or failed" },
+  { "reason", "why it failed" },
+  { "warnings", "what its run warned of, separated by |" },
+  { "scan", "its scan" },
+  { "labels", "number of its labels" },
+  { "label", "value of the label" },
+  { "name", "name of the label" },
+  { "outliers", "columns in which the row stands out, each with + or -" },
+};
+
+/** The unit that the name of a report's number ends in, before numbers of a list; empty: none. */
+std::string
+UnitOf(std::string name)
+{
+  for (std::size_t at = name.rfind('_');
+       at != std::string::npos && name.find_first_not_of("0123456789", at + 1) == std::string::npos;
+       at = name.rfind('_'))
+  {
+    name.resize(at);
+  }
+  if (name.starts_with("seconds_"))
+  {
+    return "s";
+  }
+  static const std::map<std::string, const char *> units{
+    { "mm", "mm" },      { "mm2", "mm^2" },   { "mm3", "mm^3" }, { "vox", "vox" },
+    { "vox2", "vox^2" }, { "vox3", "vox^3" }, { "deg", "deg" },  { "mb", "MB" },
+  };
+  const auto unit = units.find(name.substr(name.rfind('_') + 1));
+  return unit != units.end() ? unit->second : "";
+}
+
+} // namespace
 
 void
 Flatten(const nlohmann::ordered_json & json,
@@ -35,41 +78,42 @@ Flatten(const nlohmann::ordered_json & json,
   }
 }
 
-std::string
-CsvTable(const std::vector<Row> & rows)
+std::vector<TextColumn>
+ColumnsOf(const std::vector<Row> & rows)
 {
-  std::vector<std::string>           columns;
-  std::map<std::string, std::size_t> places;
+  std::vector<TextColumn> columns;
+  std::set<std::string>   known;
   for (const Row & row : rows)
   {
     for (const auto & [key, value] : row.items())
     {
-      if (places.emplace(key, columns.size()).second)
+      if (known.insert(key).second)
       {
-        columns.push_back(key);
+        const auto own = kOwnColumns.find(key);
+        columns.push_back({ key, UnitOf(key), own != kOwnColumns.end() ? own->second : "as in the report" });
       }
     }
   }
-  std::string text;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    text += (i > 0 ? "," : "") + CsvPlainField(columns[i]);
-  }
-  text += "\n";
+  return columns;
+}
+
+std::string
+CsvTable(const std::vector<Row> & rows, const std::vector<TextColumn> & columns, HeadUnits units)
+{
+  std::string text = HeadLine(columns, units);
   for (const Row & row : rows)
   {
-    std::vector<std::string> fields(columns.size());
-    for (const auto & [key, value] : row.items())
+    std::string line;
+    for (const TextColumn & column : columns)
     {
-      fields[places.at(key)] = value.is_null()     ? ""
-                               : value.is_string() ? CsvField(value.get_ref<const std::string &>())
-                                                   : CsvPlainField(value.dump());
+      const Json value = row.value(column.name, Json());
+      line += value.is_null()     ? ""
+              : value.is_string() ? CsvField(value.get_ref<const std::string &>())
+                                  : CsvPlainField(value.dump());
+      line += ',';
     }
-    for (std::size_t i = 0; i < fields.size(); ++i)
-    {
-      text += (i > 0 ? "," : "") + fields[i];
-    }
-    text += "\n";
+    line.back() = '\n';
+    text += line;
   }
   return text;
 }

@@ -1,6 +1,8 @@
 #pragma once
 // Reports as flat rows.
 
+#include "voxelcore/Models/TableColumns.h"
+
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -18,10 +20,13 @@ Flatten(const nlohmann::ordered_json & json,
         const std::set<std::string> &  leaveOut,
         Row &                          row);
 
-/** CSV with the union of the rows' keys as columns, in the order in which they are first met; empty where a row has
- *  none. */
+/** The union of the rows' keys, in the order in which they are first met, with the units that their names end in. */
+std::vector<TextColumn>
+ColumnsOf(const std::vector<Row> & rows);
+
+/** CSV with these columns, empty where a row has no value. */
 std::string
-CsvTable(const std::vector<Row> & rows);
+CsvTable(const std::vector<Row> & rows, const std::vector<TextColumn> & columns, HeadUnits units);
 
 /** Marks what stands out in a cohort. Rows of one label (`label` and `name`) are compared in volume, area, greatest
  *  radius, length, mean radius and numbers of branches, tips and junctions, plants also in their traits, maps also in

@@ -1,5 +1,6 @@
 #include "voxelcore/Cohort/GatherCohort.h"
 
+#include "BidsDataset.h"
 #include "CaseLock.h"
 #include "CaseTable.h"
 #include "CohortPage.h"
@@ -229,7 +230,8 @@ CohortSummary
 GatherCohort(const fs::path &                folder,
              const std::vector<CohortCase> & expected,
              const JobContext &              context,
-             const std::vector<FailedCase> & failed)
+             const std::vector<FailedCase> & failed,
+             bool                            bids)
 {
   CohortSummary         summary;
   std::vector<Row>      caseRows;
@@ -276,10 +278,28 @@ GatherCohort(const fs::path &                folder,
     pageCases[at].labels.push_back(row);
   }
   OutputTransaction transaction(true, context.temporaries);
-  WriteTextFile(transaction.Stage(folder / "cases.csv"), CsvTable(caseRows));
-  WriteTextFile(transaction.Stage(folder / "labels.csv"), CsvTable(labelRows));
+  const HeadUnits   units = context.Heads(SpatialUnit::Millimetres); // names say voxels where it is these
+  const auto        caseColumns = ColumnsOf(caseRows);
+  const auto        labelColumns = ColumnsOf(labelRows);
+  WriteTextFile(transaction.Stage(folder / "cases.csv"), CsvTable(caseRows, caseColumns, units));
+  WriteTextFile(transaction.Stage(folder / "labels.csv"), CsvTable(labelRows, labelColumns, units));
+  WriteTextFile(transaction.Stage(folder / "columns.json"),
+                TablesJson({ { "cases", ColumnsJson(caseColumns, SpatialUnit::Millimetres) },
+                             { "labels", ColumnsJson(labelColumns, SpatialUnit::Millimetres) } }));
   WriteTextFile(transaction.Stage(folder / "dataset_description.json"), Description());
   WriteTextFile(transaction.Stage(folder / "index.html"), CohortPage(pageCases));
+  if (bids)
+  {
+    std::vector<std::pair<std::string, const CaseRecord *>> done;
+    for (const PageCase & one : pageCases)
+    {
+      if (one.record.done)
+      {
+        done.emplace_back(one.folder, &one.record);
+      }
+    }
+    WriteBidsDataset(transaction.StageWithCompanions(folder / "bids"), folder, Description(), done);
+  }
   transaction.Commit();
   return summary;
 }

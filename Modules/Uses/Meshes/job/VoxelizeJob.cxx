@@ -6,11 +6,14 @@
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/JobTools.h"
+#include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/ReadInput.h"
 #include "voxelcore/Models/ReadMesh.h"
+#include "voxelcore/Models/TableColumns.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
@@ -121,11 +124,32 @@ StudyRows(std::int64_t resolution, const CoreReport & report)
   return rows;
 }
 
-constexpr const char * kStudyHead =
-  "resolution,spacing_mm,component,pruning,pruning_mm,voxels,boundary_vertices,core_faces,vertices,edges,faces,area_"
-  "mm2,"
-  "max_radius_mm,euler,b0,b1,b2,seconds_read,seconds_shape,seconds_delaunay,seconds_core,seconds_prune,seconds_total,"
-  "peak_memory_mb\n";
+constexpr auto kStudyColumns = std::to_array<Column>({
+  { "resolution", "", "voxels along the longest side" },
+  { "spacing_mm", "mm", "size of a voxel" },
+  { "component", "", "number of the component" },
+  { "pruning", "", "lambda or tolerance, as given" },
+  { "pruning_mm", "mm", "the same" },
+  { "voxels", "", "of the shape" },
+  { "boundary_vertices", "", "of the shape" },
+  { "core_faces", "", "faces of the whole core" },
+  { "vertices", "", "of the pruned core" },
+  { "edges", "", "of the pruned core" },
+  { "faces", "", "of the pruned core" },
+  { "area_mm2", "mm^2", "area of its faces" },
+  { "max_radius_mm", "mm", "radius of its largest ball" },
+  { "euler", "", "Euler number" },
+  { "b0", "", "pieces" },
+  { "b1", "", "loops" },
+  { "b2", "", "cavities" },
+  { "seconds_read", "s", "time to read the mesh and find its voxels" },
+  { "seconds_shape", "s", "time for the shape" },
+  { "seconds_delaunay", "s", "time for the Delaunay cells" },
+  { "seconds_core", "s", "time for the core" },
+  { "seconds_prune", "s", "time to prune it" },
+  { "seconds_total", "s", "time for all" },
+  { "peak_memory_mb", "MB", "greatest memory" },
+});
 
 } // namespace
 
@@ -213,6 +237,7 @@ RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resol
                  : toFolder    ? options.output / (ScanName(options.scan) + "_resolutions.csv")
                                : std::filesystem::path(options.output).replace_extension(".csv");
   transaction.CheckTarget(result.table);
+  transaction.CheckTarget(ColumnsBeside(result.table));
   std::vector<CoreOptions> runs;
   for (const std::int64_t resolution : resolutions)
   {
@@ -232,7 +257,7 @@ RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resol
     CheckCoreTargets(one, transaction);
     runs.push_back(std::move(one));
   }
-  std::string rows = kStudyHead;
+  std::string rows = HeadLine(kStudyColumns, context.Heads(SpatialUnit::Millimetres));
   for (std::size_t i = 0; i < runs.size(); ++i)
   {
     const double count = static_cast<double>(runs.size());
@@ -245,6 +270,8 @@ RunStudyJob(const CoreOptions & options, const std::vector<std::int64_t> & resol
     rows += StudyRows(resolutions[i], result.runs.back().report);
   }
   WriteTextFile(transaction.Stage(result.table), rows);
+  WriteTextFile(transaction.Stage(ColumnsBeside(result.table)),
+                TablesJson({ { "resolutions", ColumnsJson(kStudyColumns, SpatialUnit::Millimetres) } }));
   Finish(transaction, context);
   return result;
 }

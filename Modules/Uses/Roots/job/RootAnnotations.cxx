@@ -58,11 +58,7 @@ public:
     {
       throw InputError(m_Path.string() + ": is empty; expected the columns root, x, y, z, edit, name");
     }
-    std::map<std::string, std::size_t> columns;
-    for (std::size_t i = 0; i < rows[0].fields.size(); ++i)
-    {
-      columns.emplace(rows[0].fields[i], i);
-    }
+    const auto columns = ColumnPlaces(rows[0]);
     if (!columns.contains("root") || (!columns.contains("edit") && !columns.contains("name")))
     {
       throw InputError(m_Path.string() + ": has no columns root and edit; expected those of annotations.csv");
@@ -320,7 +316,8 @@ WriteRootAnnotations(const fs::path &      csv,
                      const fs::path &      markups,
                      const SkeletonGraph & graph,
                      const RootEditing &   editing,
-                     SpatialUnit           unit)
+                     SpatialUnit           unit,
+                     HeadUnits             units)
 {
   const auto & [found, edits, edited] = std::tie(editing.found, editing.edits, editing.edited);
   std::vector<RootEdit> said(found.axes.size());
@@ -328,7 +325,7 @@ WriteRootAnnotations(const fs::path &      csv,
   {
     said[edit.root] = edit;
   }
-  std::string text = "root,now,x,y,z,edit,name\n";
+  std::string text = HeadLine(kAnnotationColumns, units);
   Json        points = Json::array();
   for (ElementIndex root = 0; root < found.axes.size(); ++root)
   {

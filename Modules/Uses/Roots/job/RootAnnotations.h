@@ -2,10 +2,11 @@
 // Notes of a person on each root: written beside the tables, edited in a text editor, a spreadsheet or 3D Slicer, and
 // read back. A root is known by its tip, so that a file holds for other options, too, as long as the root is found.
 
-#include "voxelcore/Base/SpatialUnit.h"
+#include "voxelcore/Models/TableColumns.h"
 #include "voxelcore/Roots/RootEdits.h"
 #include "voxelcore/Shape/BodyFrame.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -56,13 +57,24 @@ private:
   std::vector<RootAnnotation> m_Annotations;
 };
 
+inline constexpr auto kAnnotationColumns = std::to_array<Column>({
+  { "root", "", "number of the root in the run that wrote the file" },
+  { "now", "", "its number in this run" },
+  { "x", "mm", "its tip, LPS" },
+  { "y", "mm", "" },
+  { "z", "mm", "" },
+  { "edit", "", "what you fill in" },
+  { "name", "", "given to the root by --edits" },
+});
+
 /** A row per root as it was found, with what was said of it and its number now. \throws OutputError */
 void
 WriteRootAnnotations(const std::filesystem::path & csv,
                      const std::filesystem::path & markups,
                      const SkeletonGraph &         graph,
                      const RootEditing &           editing,
-                     SpatialUnit                   unit);
+                     SpatialUnit                   unit,
+                     HeadUnits                     units);
 
 /** The edits as a JSON array. */
 std::string

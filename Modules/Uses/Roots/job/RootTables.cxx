@@ -1,3 +1,4 @@
+#include "RootAnnotations.h"
 #include "voxelcore/Models/TableColumns.h"
 
 #include "voxelcore/Models/SkeletonModel.h"
@@ -279,14 +280,14 @@ WriteRow(TextFile & file, const Columns & columns, const Row & row)
 } // namespace
 
 void
-WriteRootCsv(const std::filesystem::path & path, const RootModel & model)
+WriteRootCsv(const std::filesystem::path & path, const RootModel & model, HeadUnits units)
 {
   TextFile file(path, tableDigits);
   for (const auto & column : kRootColumns)
   {
-    file << column.name << ",";
+    file << HeadOf(column, units) << ",";
   }
-  WriteHead(file, kRootNames);
+  file << HeadLine(kRootNames, units);
   for (std::size_t root = 0; root < model.traits.roots.size(); ++root)
   {
     const RootRow row{ root, model.roots.axes[root], model.traits.roots[root] };
@@ -300,11 +301,11 @@ WriteRootCsv(const std::filesystem::path & path, const RootModel & model)
 }
 
 void
-WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model)
+WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model, HeadUnits units)
 {
   TextFile file(path, tableDigits);
   file << kLevelHead[0].name << ",";
-  WriteHead(file, kLevelColumns);
+  file << HeadLine(kLevelColumns, units);
   for (const RootLevelRecord & level : model.traits.levels)
   {
     using Kind = RootLevelRecord::Kind;
@@ -318,11 +319,11 @@ WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model)
 }
 
 void
-WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume)
+WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume, HeadUnits units)
 {
   TextFile file(path, tableDigits);
   file << kPlantHead[0].name << ",";
-  WriteHead(file, kPlantColumns);
+  file << HeadLine(kPlantColumns, units);
   file << CsvField(model.name) << ",";
   WriteRow(file, kPlantColumns, PlantRow{ model.traits, volume });
   file.Finish();
@@ -351,10 +352,10 @@ PlantJson(const RootModel & model, double volume)
 }
 
 void
-WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model)
+WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kProfileColumns);
+  file << HeadLine(kProfileColumns, units);
   const std::size_t rows = std::min(model.traits.depths.size(), model.traits.diameters.size());
   for (std::size_t i = 0; i < rows; ++i)
   {
@@ -369,7 +370,8 @@ RootColumnsJson(SpatialUnit unit)
   return TablesJson({ { "roots", ColumnsJson(kRootColumns, unit, kRootNames) },
                       { "levels", ColumnsJson(kLevelHead, unit, kLevelColumns) },
                       { "plant", ColumnsJson(kPlantHead, unit, kPlantColumns) },
-                      { "profile", ColumnsJson(kProfileColumns, unit) } });
+                      { "profile", ColumnsJson(kProfileColumns, unit) },
+                      { "annotations", ColumnsJson(kAnnotationColumns, unit) } });
 }
 
 } // namespace voxelcore

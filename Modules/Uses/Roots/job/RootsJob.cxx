@@ -375,17 +375,19 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
             { ModificationTime(options.scan), "VoxelCore " + VoxelCoreVersion(), result.report.input.sha256 });
   WriteRootSwc(transaction.Stage(options.Place("roots.swc")), result.model);
   WriteRootGraphMl(transaction.Stage(options.Place("roots.graphml")), result.model);
-  WriteRootCsv(transaction.Stage(options.Place("roots.csv")), result.model);
-  WriteRootLevelCsv(transaction.Stage(options.Place("levels.csv")), result.model);
-  WritePlantCsv(transaction.Stage(options.Place("plant.csv")), result.model, volume);
-  WriteRootProfileCsv(transaction.Stage(options.Place("profile.csv")), result.model);
+  const HeadUnits units = context.Heads(result.model.unit);
+  WriteRootCsv(transaction.Stage(options.Place("roots.csv")), result.model, units);
+  WriteRootLevelCsv(transaction.Stage(options.Place("levels.csv")), result.model, units);
+  WritePlantCsv(transaction.Stage(options.Place("plant.csv")), result.model, volume, units);
+  WriteRootProfileCsv(transaction.Stage(options.Place("profile.csv")), result.model, units);
   WriteTextFile(transaction.Stage(options.Place("columns.json")), RootColumnsJson(result.model.unit));
   WriteTextFile(transaction.Stage(options.Place("changes.txt")), RootChangesText(result.topology, result.model.unit));
   WriteRootAnnotations(transaction.Stage(options.Place("annotations.csv")),
                        transaction.Stage(options.Place("annotations.mrk.json")),
                        result.model.graph,
                        editing,
-                       result.model.unit);
+                       result.model.unit,
+                       units);
   if (draws)
   {
     DrawRoots(result.model, mask.shape, geometry, options, transaction, PartOfProgress(context.progress, 0.8, 1));

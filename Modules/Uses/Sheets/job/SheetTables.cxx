@@ -182,11 +182,11 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
 }
 
 void
-WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model)
+WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model, HeadUnits units)
 {
   const SheetNumbers numbers(model);
   TextFile           file(path, tableDigits);
-  WriteHead(file, kSheetColumns);
+  file << HeadLine(kSheetColumns, units);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
   {
     const SheetPart & part = model.parts[p];
@@ -220,11 +220,11 @@ WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model)
 }
 
 void
-WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model)
+WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model, HeadUnits units)
 {
   const SheetNumbers numbers(model);
   TextFile           file(path, tableDigits);
-  WriteHead(file, kSeamColumns);
+  file << HeadLine(kSeamColumns, units);
   for (std::size_t p = 0; p < model.parts.size(); ++p)
   {
     const SheetPart & part = model.parts[p];

@@ -8,6 +8,7 @@
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/LabelReading.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
+#include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/ReadInput.h"
 #include "voxelcore/Report/ReportTable.h"
 #include "voxelcore/Thickness/CoreThickness.h"
@@ -58,8 +59,9 @@ public:
     if (m_Options.table)
     {
       const fs::path & table = *m_Options.table;
-      WriteSheetCsv(m_Transaction.Stage(table), m_Result.model);
-      WriteSeamCsv(m_Transaction.Stage(Beside(table, "_seams")), m_Result.model);
+      const HeadUnits  units = m_Context.Heads(m_Result.model.unit);
+      WriteSheetCsv(m_Transaction.Stage(table), m_Result.model, units);
+      WriteSeamCsv(m_Transaction.Stage(FileOutputPath(table, "_seams")), m_Result.model, units);
       WriteTextFile(m_Transaction.Stage(ColumnsBeside(table)), SheetColumnsJson(m_Result.model.unit));
     }
     if (m_Options.graph)
@@ -118,7 +120,7 @@ private:
     }
     if (m_Options.table)
     {
-      targets.insert(targets.end(), { Beside(*m_Options.table, "_seams"), ColumnsBeside(*m_Options.table) });
+      targets.insert(targets.end(), { FileOutputPath(*m_Options.table, "_seams"), ColumnsBeside(*m_Options.table) });
     }
     voxelcore::CheckTargets(m_Transaction, targets);
   }

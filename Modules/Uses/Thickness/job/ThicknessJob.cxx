@@ -414,8 +414,9 @@ private:
       return;
     }
     const fs::path & table = *m_Options.table;
-    WriteThicknessCsv(m_Transaction.Stage(table), m_Result.thickness);
-    WriteThicknessHistogramCsv(m_Transaction.Stage(Beside(table, "_histogram")), m_Result.thickness);
+    const HeadUnits  units = m_Context.Heads(m_Geometry.unit);
+    WriteThicknessCsv(m_Transaction.Stage(table), m_Result.thickness, units);
+    WriteThicknessHistogramCsv(m_Transaction.Stage(FileOutputPath(table, "_histogram")), m_Result.thickness, units);
     WriteTextFile(m_Transaction.Stage(ColumnsBeside(table)), ThicknessColumnsJson(m_Geometry.unit));
   }
 

@@ -56,10 +56,10 @@ WriteNames(TextFile & file, const ThicknessRecord & record)
 } // namespace
 
 void
-WriteThicknessCsv(const std::filesystem::path & path, const std::vector<ThicknessRecord> & records)
+WriteThicknessCsv(const std::filesystem::path & path, const std::vector<ThicknessRecord> & records, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kNumberColumns);
+  file << HeadLine(kNumberColumns, units);
   for (const ThicknessRecord & record : records)
   {
     const ThicknessNumbers & n = record.numbers;
@@ -89,10 +89,12 @@ WriteThicknessCsv(const std::filesystem::path & path, const std::vector<Thicknes
 }
 
 void
-WriteThicknessHistogramCsv(const std::filesystem::path & path, const std::vector<ThicknessRecord> & records)
+WriteThicknessHistogramCsv(const std::filesystem::path &        path,
+                           const std::vector<ThicknessRecord> & records,
+                           HeadUnits                            units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kHistogramColumns);
+  file << HeadLine(kHistogramColumns, units);
   for (const ThicknessRecord & record : records)
   {
     const ThicknessNumbers & n = record.numbers;

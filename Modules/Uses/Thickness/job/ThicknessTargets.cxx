@@ -54,7 +54,7 @@ ThicknessPath(const ThicknessOptions & options, const LabelRecord & label, const
 {
   if (!IsFolderOutput(options.output))
   {
-    return what.empty() ? options.output : Beside(options.output, what);
+    return what.empty() ? options.output : FileOutputPath(options.output, what);
   }
   return VolumeFolderPath(options.output, options.core.scan, label.label, label.component, "thickness" + what);
 }
@@ -63,7 +63,7 @@ fs::path
 SeparationPath(const ThicknessOptions & options)
 {
   return IsFolderOutput(options.output) ? options.output / (ScanName(options.core.scan) + "_separation.nrrd")
-                                        : Beside(options.output, "_separation");
+                                        : FileOutputPath(options.output, "_separation");
 }
 
 void
@@ -85,7 +85,7 @@ CheckThicknessTargets(const ThicknessOptions & options, const OutputTransaction 
   }
   if (options.table)
   {
-    targets.push_back(Beside(*options.table, "_histogram"));
+    targets.push_back(FileOutputPath(*options.table, "_histogram"));
     targets.push_back(ColumnsBeside(*options.table));
   }
   if (options.separation != SeparationRegion::None)

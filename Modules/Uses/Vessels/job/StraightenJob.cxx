@@ -223,12 +223,8 @@ MapPoints(const fs::path & path, std::span<const AxisPlane> planes, const ImageG
   {
     throw InputError(path.string() + ": cannot read this file; check its name and permissions");
   }
-  const auto                         rows = ParseCsv(text, path.string(), FindSeparator(text));
-  std::map<std::string, std::size_t> columns;
-  for (std::size_t i = 0; !rows.empty() && i < rows[0].fields.size(); ++i)
-  {
-    columns.emplace(rows[0].fields[i], i);
-  }
+  const auto                            rows = ParseCsv(text, path.string(), FindSeparator(text));
+  const auto                            columns = ColumnPlaces(rows.empty() ? CsvRow() : rows[0]);
   constexpr std::array<const char *, 3> ofScan{ "x", "y", "z" };
   constexpr std::array<const char *, 3> ofVolume{ "across", "up", "arc_length" };
   const auto                            has = [&](const auto & names) {
@@ -273,18 +269,19 @@ void
 WriteTables(const StraightenOptions & options,
             const StraightAxis &      axis,
             StraightenResult &        result,
-            OutputTransaction &       transaction)
+            OutputTransaction &       transaction,
+            HeadUnits                 units)
 {
   std::vector<MappedPoint> points;
   if (options.points)
   {
     points = MapPoints(*options.points, axis.planes, result.geometry);
     result.mapped = points.size();
-    WriteMappedCsv(transaction.Stage(*options.mapped), points);
+    WriteMappedCsv(transaction.Stage(*options.mapped), points, units);
   }
   if (options.table)
   {
-    WritePlaneCsv(transaction.Stage(*options.table), axis.planes);
+    WritePlaneCsv(transaction.Stage(*options.table), axis.planes, units);
   }
   for (const auto & table : { options.table, options.mapped })
   {
@@ -394,7 +391,7 @@ RunStraightenJob(const StraightenOptions & options, const JobContext & given)
   {
     result.notes.push_back(leftOut);
   }
-  WriteTables(options, axis, result, transaction);
+  WriteTables(options, axis, result, transaction, context.Heads(result.geometry.unit));
   Finish(transaction, context);
   return result;
 }

@@ -162,10 +162,11 @@ void
 WriteFlowCsv(const std::filesystem::path &         segments,
              const std::filesystem::path &         nodes,
              const FlowNetwork &                   network,
-             const std::vector<MeasuredSkeleton> & parts)
+             const std::vector<MeasuredSkeleton> & parts,
+             HeadUnits                             units)
 {
   TextFile file(segments, tableDigits);
-  WriteHead(file, kSegmentColumns);
+  file << HeadLine(kSegmentColumns, units);
   for (std::size_t i = 0; i < network.segments.size(); ++i)
   {
     const FlowSegment &      segment = network.segments[i];
@@ -186,7 +187,7 @@ WriteFlowCsv(const std::filesystem::path &         segments,
   }
   file.Finish();
   TextFile ends(nodes, tableDigits);
-  WriteHead(ends, kNodeColumns);
+  ends << HeadLine(kNodeColumns, units);
   for (std::size_t i = 0; i < network.nodes.size(); ++i)
   {
     const FlowNode & node = network.nodes[i];

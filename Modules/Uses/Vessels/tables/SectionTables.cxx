@@ -97,10 +97,10 @@ NameSections(const SkeletonPart & part, std::vector<BranchSection> sections, std
 }
 
 void
-WriteSectionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts)
+WriteSectionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kSectionColumns);
+  file << HeadLine(kSectionColumns, units);
   const auto vector = [&](const Vector3 & of) { file << "," << of[0] << "," << of[1] << "," << of[2]; };
   // Where there is no section, its directions are none either.
   const auto direction = [&](const Vector3 & of) {
@@ -195,10 +195,10 @@ LesionText(LesionKind kind)
 }
 
 void
-WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts)
+WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, kLesionColumns);
+  file << HeadLine(kLesionColumns, units);
   for (const SectionsOfPart & part : parts)
   {
     for (const VesselLesion & one : part.lesions)

@@ -45,10 +45,10 @@ constexpr auto kPointColumns = std::to_array<Column>({
 } // namespace
 
 void
-WritePlaneCsv(const std::filesystem::path & path, std::span<const AxisPlane> planes)
+WritePlaneCsv(const std::filesystem::path & path, std::span<const AxisPlane> planes, HeadUnits units)
 {
   TextFile file(path, kPlaceDigits);
-  WriteHead(file, kPlaneColumns);
+  file << HeadLine(kPlaneColumns, units);
   for (std::size_t i = 0; i < planes.size(); ++i)
   {
     const AxisPlane & plane = planes[i];
@@ -63,10 +63,10 @@ WritePlaneCsv(const std::filesystem::path & path, std::span<const AxisPlane> pla
 }
 
 void
-WriteMappedCsv(const std::filesystem::path & path, std::span<const MappedPoint> points)
+WriteMappedCsv(const std::filesystem::path & path, std::span<const MappedPoint> points, HeadUnits units)
 {
   TextFile file(path, kPlaceDigits);
-  WriteHead(file, kPointColumns);
+  file << HeadLine(kPointColumns, units);
   for (const MappedPoint & point : points)
   {
     file << point.place[0] << "," << point.place[1] << "," << point.place[2];

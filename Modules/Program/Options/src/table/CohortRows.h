@@ -37,6 +37,15 @@ inline constexpr auto kCohortRows = std::to_array<Parameter>({
     "Run 'voxelcore thickness' on each scan, with the options of that command: a map per case; compare scans by their "
     "numbers" },
   { "no-skeleton", "--no-skeleton", Flag, "", "", false, kBatch, "Compute medial surfaces only" },
+  { "bids",
+    "--bids",
+    Flag,
+    "",
+    "",
+    false,
+    kBatch,
+    "Also write the results as BIDS derivatives into OUTDIR/bids: names with the scan's entities, tables as .tsv, and "
+    "JSON sidecars" },
   { "list", "--list", Flag, "", "", false, kBatch, "Print each case's number, folder, id and scan, and run nothing" },
   { "case",
     "--case",

@@ -63,7 +63,7 @@ inline constexpr auto kSkeletonRows = std::to_array<Parameter>({
     false,
     kSkeleton,
     "Write a volume with the branch each voxel belongs to, as its row in the table of branches, from 1: .nrrd .nii "
-    ".nii.gz .mha .mhd .tif" },
+    ".nii.gz .mha .mhd .tif .ome.zarr" },
   { "order-map",
     "--order-map",
     Output,

@@ -114,7 +114,17 @@ ComputeTolerances(const MedialComplex &             core,
                   double                            floor = 0,
                   const ProgressCallback &          progress = {});
 
-/** What is left at a height in mm of a core that has its heights (MedialComplex::tolerances). */
+/** What its elements that never go have; 0 for an empty core. Of an element and those that bound it the vertices have
+ *  the greatest, and something of each piece always stays. */
+double
+GreatestTolerance(const MedialComplex & core);
+
+/** Gives those below `height` this one. */
+void
+RaiseTolerances(ToleranceValues & values, double height);
+
+/** What is left at a height in mm of a core that has its heights (MedialComplex::tolerances): what has at least this
+ *  one, or the greatest. Pruning raises what is left to the height. */
 LiveElements
 LeftByTolerance(const MedialComplex & core, double height);
 MedialComplex

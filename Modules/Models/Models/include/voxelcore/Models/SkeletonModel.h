@@ -2,6 +2,7 @@
 // Curve skeletons as files: .vtp for viewers and for VoxelCore, .swc .mrk.json .graphml for others, .csv tables.
 
 #include "voxelcore/Base/SpatialUnit.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Skeleton/MeasuredSkeleton.h"
 #include "voxelcore/Skeleton/SomaTree.h"
 
@@ -25,12 +26,12 @@ struct SkeletonModel
   std::string               rounded{};                       ///< as of MedialModel
 };
 
-/** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius,
- *  MaximumInscribedSphereRadius (the same under VMTK's name), SectionRadius, ErosionThickness; cell arrays BranchId
- *  (per part, from 0; -1 for verts and polygons), Label, Component, Closed (1 for faces of closed surfaces), and of
- *  branches Length, Tortuosity, Level, Strahler (0 elsewhere). Of a network Label is that of each branch; there are the
- *  point arrays Label and Contact (1 where labels meet), too, and the field array LabelNames, a line "value name" a
- *  label. Equal models give equal bytes. \throws OutputError */
+/** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius
+ *  (SectionRadii()), BallRadius, MaximumInscribedSphereRadius (the same under VMTK's name), ErosionThickness; cell
+ *  arrays BranchId (per part, from 0; -1 for verts and polygons), Label, Component, Closed (1 for faces of closed
+ *  surfaces), and of branches Length, Tortuosity, Level, Strahler (0 elsewhere). Of a network Label is that of each
+ *  branch; there are the point arrays Label and Contact (1 where labels meet), too, and the field array LabelNames, a
+ *  line "value name" a label. Equal models give equal bytes. \throws OutputError */
 void
 WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model);
 
@@ -75,16 +76,16 @@ WritePrecomputedSkeletons(const std::function<std::filesystem::path(const std::s
 
 /** Comma-separated values, a row per branch; columns as SkeletonColumns() says. \throws OutputError */
 void
-WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model);
+WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units = {});
 
 /** A row per label and level of the hierarchy; level "all" sums up a label. Of a network there are rows for each of its
  *  labels, and rows of label 0, called "network", for the whole. \throws OutputError */
 void
-WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model);
+WriteSummaryCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units = {});
 
 /** A row per contact of labels of networks, or gap between them. \throws OutputError */
 void
-WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model);
+WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units = {});
 
 /** A text as a field of a .csv: quoted where it has to be, with an apostrophe in front where a spreadsheet would take
  *  it for a formula (it begins with one of = + - @ or a control character). */

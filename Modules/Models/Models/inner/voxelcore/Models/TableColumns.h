@@ -1,6 +1,7 @@
 #pragma once
 // Tables whose columns are described in a list: each has `name`, `unit` and `meaning`.
 
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Models/TextFile.h"
 
 #include "voxelcore/Base/SpatialUnit.h"
@@ -24,21 +25,40 @@ struct Column
   const char * meaning;
 };
 
+/** A column that is known when a table is written. */
+struct TextColumn
+{
+  std::string name;
+  std::string unit;
+  std::string meaning;
+};
+
 // What many tables begin with.
 constexpr Column kLabelColumn{ "label", "", "value of the label" };
 constexpr Column kNameColumn{ "name", "", "name of the label" };
 constexpr Column kPartColumn{ "part", "", "component of a label that was split, from 1; 0: the whole label" };
 constexpr Column kBranchIdColumn{ "branch_id", "", "number of the branch, the cell array BranchId" };
 
-template <typename Columns>
-void
-WriteHead(TextFile & file, const Columns & columns)
+/** A column's name as a table's first line has it. */
+template <typename OneColumn>
+std::string
+HeadOf(const OneColumn & column, HeadUnits units)
 {
-  for (std::size_t i = 0; i < columns.size(); ++i)
+  const std::string unit = units ? InUnit(column.unit, *units) : std::string();
+  return std::string(column.name) + (unit.empty() || unit == "1" ? "" : " [" + unit + "]");
+}
+
+/** A table's first line. */
+template <typename Columns>
+std::string
+HeadLine(const Columns & columns, HeadUnits units)
+{
+  std::string line;
+  for (const auto & column : columns)
   {
-    file << (i > 0 ? "," : "") << columns[i].name;
+    line += (line.empty() ? "" : ",") + HeadOf(column, units);
   }
-  file << "\n";
+  return line + "\n";
 }
 
 /** What the columns mean, as a JSON object; those of `further` follow. */
@@ -67,6 +87,13 @@ TablesJson(const std::vector<std::pair<const char *, std::string>> & tables)
     json += (json.size() > 1 ? ",\n  \"" : "\n  \"") + std::string(name) + "\": " + columns;
   }
   return json + "\n}\n";
+}
+
+/** Two TablesJson() as one. */
+inline std::string
+JoinedTables(const std::string & one, const std::string & other)
+{
+  return one.substr(0, one.rfind('\n', one.size() - 2)) + "," + other.substr(1);
 }
 
 } // namespace voxelcore

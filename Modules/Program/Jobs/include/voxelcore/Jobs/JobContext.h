@@ -3,6 +3,7 @@
 
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Jobs/OutputTransaction.h"
+#include "voxelcore/Models/TableHead.h"
 
 #include <functional>
 
@@ -20,6 +21,13 @@ struct JobContext
   /** Called once with the files that are there when all is done. May be empty. */
   std::function<void(const std::vector<std::filesystem::path> &)> wrote;
   TemporaryRegistry * temporaries = nullptr; ///< for a signal handler that must not leave files; may be null
+  bool                unitsInTables = false; ///< columns of tables are called "length [mm]"
+
+  HeadUnits
+  Heads(SpatialUnit unit) const
+  {
+    return unitsInTables ? HeadUnits(unit) : HeadUnits();
+  }
 };
 
 /** The same, but the progress never goes back: what every job begins with. */

@@ -39,7 +39,7 @@ ParseTolerances(std::string_view text);
 std::vector<std::string>
 ResultSuffixes(const std::vector<Lambda> & lambdas, const std::vector<Tolerance> & tolerances = {});
 
-/** "OUT<suffix>.vtp" for "OUT.vtp". */
+/** "OUT<suffix>.vtp" for "OUT.vtp", "OUT<suffix>.nii.gz" for "OUT.nii.gz". */
 std::filesystem::path
 FileOutputPath(const std::filesystem::path & output, const std::string & suffix);
 

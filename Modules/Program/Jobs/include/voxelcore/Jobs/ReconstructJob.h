@@ -18,7 +18,7 @@ struct ReconstructOptions
   std::filesystem::path                core; ///< .vtp
   std::optional<std::filesystem::path> like; ///< a scan on whose grid the volume is made; else that of the core's scan
   std::optional<std::filesystem::path> scan; ///< the scan the core was made from, to compare with
-  std::filesystem::path                output; ///< .nrrd .nii .nii.gz .mha .mhd .tif
+  std::filesystem::path                output; ///< .nrrd .nii .nii.gz .mha .mhd .tif .ome.zarr
   std::optional<std::filesystem::path> report;
   bool                                 force = false;
   std::string                          command; ///< only recorded

@@ -8,18 +8,18 @@
 #include "voxelcore/Report/CoreReport.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace voxelcore
 {
 
-/** Takes the labels' skeletons, then writes all files. Names beside "OUT.vtp": OUT_branches.csv, OUT_summary.csv and
- *  OUT_columns.json for csv (with --table that file takes the place of OUT_branches.csv), of a network
- *  OUT_contacts.csv; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.obj, OUT.ma with OUT.r for the others, and the folder
- *  OUT_precomputed with a file a label. In a folder there is an OUT
- *  for each label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so
- *  on. */
+/** Takes the labels' skeletons, then writes all files. Names beside "OUT.vtp": OUT_branches.csv and OUT_summary.csv for
+ *  csv (with --table that file takes the place of OUT_branches.csv), of a network OUT_contacts.csv; OUT_columns.json,
+ *  which says what the columns of all tables OUT_... mean; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.obj, OUT.ma with
+ *  OUT.r for the others, and the folder OUT_precomputed with a file a label. In a folder there is an OUT for each
+ *  label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so on. */
 class SkeletonFiles
 {
 public:
@@ -81,6 +81,14 @@ private:
   FlowTargets() const;
   void
   WriteFlow(const CoreReport & report);
+  /** Files that say what columns of tables mean, each with its text. */
+  std::map<std::filesystem::path, std::string>
+  Columns(SpatialUnit unit) const;
+  HeadUnits
+  Heads(SpatialUnit unit) const
+  {
+    return m_Targets.units ? HeadUnits(unit) : HeadUnits();
+  }
   bool
   Wants(const std::string & ending) const;
   std::vector<std::filesystem::path>

@@ -19,6 +19,7 @@ struct SkeletonTargets
   std::optional<std::filesystem::path> table; ///< .csv, a row per branch
   std::vector<std::string> also; ///< further files beside the result: csv, swc, mrk.json, graphml, obj, precomputed, ma
   bool                     network = false; ///< of a network: tables have that of its contacts, too
+  bool                     units = false;   ///< columns of tables are called "length [mm]"
 
   /** Sections of the body along branches, so far apart; 0: at each point. Of scans, into one file. */
   std::optional<Lambda> sections{};

@@ -13,10 +13,6 @@
 namespace voxelcore
 {
 
-/** "OUT<what>.nii.gz" for "OUT.nii.gz". */
-std::filesystem::path
-Beside(const std::filesystem::path & output, const std::string & what);
-
 /** "OUT_columns.json" for "OUT.csv". */
 std::filesystem::path
 ColumnsBeside(const std::filesystem::path & table);

@@ -2,6 +2,7 @@
 // Comma-separated values (RFC 4180), read and written.
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,10 @@ ParseCsv(std::string_view text, const std::string & where, char separator = ',')
  *  most of, not counting what is quoted; a comma where there is none. */
 char
 FindSeparator(std::string_view text);
+
+/** Where each column stands, by its name: of "length [mm]" without the unit. The first of one name. */
+std::map<std::string, std::size_t>
+ColumnPlaces(const CsvRow & head);
 
 /** A number or a word of our own as a field, quoted where it must be. For text of others see CsvField. */
 std::string

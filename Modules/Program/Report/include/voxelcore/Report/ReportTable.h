@@ -1,6 +1,7 @@
 #pragma once
 // A report as a table for people: a row per label.
 
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Report/CoreReport.h"
 
 #include <string>
@@ -31,6 +32,10 @@ TopologyText(const TopologyNumbers & topology);
 /** The labels of a report as .csv, a row for each and result: label, name, component, lambda or tolerance, voxels,
  *  volume_mm3, vertices, edges, faces, area_mm2, max_radius_mm, b0, b1, b2. */
 std::string
-LabelTableCsv(const CoreReport & report);
+LabelTableCsv(const CoreReport & report, HeadUnits units = {});
+
+/** What its columns mean, as JSON. */
+std::string
+LabelTableColumnsJson(const CoreReport & report);
 
 } // namespace voxelcore

@@ -6,6 +6,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -24,6 +26,7 @@ struct VolumeToWrite
   bool          compress = true;
   std::int64_t  layers = 1; ///< NRRD only: so many values a voxel, on a leading list axis
   std::string   fields{};   ///< NRRD only: further lines of the header, each with its line end
+  std::optional<std::map<std::int64_t, ListedLabel>> labels{}; ///< OME-Zarr only: values are labels, with these names
 };
 
 /** \throws OutputError when the file cannot be written in full. */
@@ -35,6 +38,9 @@ WriteNifti(const std::filesystem::path & path, const VolumeToWrite & volume);
 /** .mha, or .mhd with the voxels in a .raw or .zraw file beside it. */
 void
 WriteMetaImage(const std::filesystem::path & path, const VolumeToWrite & volume);
+/** A folder, .ome.zarr, of versions 0.4 and 0.5 in one. \throws UsageError where axes are oblique */
+void
+WriteOmeZarr(const std::filesystem::path & path, const VolumeToWrite & volume);
 /** One page a slice; BigTIFF when 4 GB may not do. */
 void
 WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume);

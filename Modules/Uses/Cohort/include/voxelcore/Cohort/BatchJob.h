@@ -28,6 +28,7 @@ struct BatchOptions
   double                             memoryMb = 0;   ///< for all cases that run, together
   double                             timeout = 0;    ///< seconds a case may take; 0: as long as it likes
   std::optional<std::size_t>         only;           ///< run this one of the cases, from 1, and write no tables
+  bool                               bids = false;   ///< the results as a dataset of BIDS derivatives, too
   bool                               gather = false; ///< run nothing, write tables and page
 };
 

@@ -22,6 +22,8 @@ struct CohortSummary
  *  - labels.csv: a row per case and label with every number of the report's label (of `cuts` only how many there are),
  *    and `outliers`: FindOutliers();
  *  - dataset_description.json, of BIDS derivatives;
+ *  - columns.json: what the columns mean;
+ *  - bids/, if asked for: the results under the names of BIDS derivatives;
  *  - index.html: the same for people, without anything from elsewhere.
  *  Columns: the keys of the report joined by "_"; numbers in lists from 0. Text that a spreadsheet would take for a
  *  formula has an apostrophe in front. Cases of `expected` that have left no record count as failed, and so do those of
@@ -31,6 +33,7 @@ CohortSummary
 GatherCohort(const std::filesystem::path &   folder,
              const std::vector<CohortCase> & expected,
              const JobContext &              context = {},
-             const std::vector<FailedCase> & failed = {});
+             const std::vector<FailedCase> & failed = {},
+             bool                            bids = false);
 
 } // namespace voxelcore

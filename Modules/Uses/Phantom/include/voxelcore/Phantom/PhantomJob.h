@@ -15,7 +15,7 @@ namespace voxelcore
 struct PhantomJobOptions
 {
   PhantomOptions        phantom;
-  std::filesystem::path output; ///< .nrrd .nii .nii.gz .mha .mhd .tif
+  std::filesystem::path output; ///< .nrrd .nii .nii.gz .mha .mhd .tif .ome.zarr
   bool                  force = false;
 
   std::optional<std::filesystem::path> centreLines; ///< .swc or .rsml; of kind root only

@@ -3,6 +3,7 @@
 // read.
 
 #include "voxelcore/Base/SpatialUnit.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Roots/RootTraits.h"
 
 #include <filesystem>
@@ -52,15 +53,15 @@ WriteRootGraphMl(const std::filesystem::path & path, const RootModel & model);
 
 /** A row per root. \throws OutputError */
 void
-WriteRootCsv(const std::filesystem::path & path, const RootModel & model);
+WriteRootCsv(const std::filesystem::path & path, const RootModel & model, HeadUnits units = {});
 
 /** A row per level, one for all laterals, one for all roots. \throws OutputError */
 void
-WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model);
+WriteRootLevelCsv(const std::filesystem::path & path, const RootModel & model, HeadUnits units = {});
 
 /** One row: the plant as a whole. `volume` is that of the voxels. \throws OutputError */
 void
-WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume);
+WritePlantCsv(const std::filesystem::path & path, const RootModel & model, double volume, HeadUnits units = {});
 
 /** The same row as a JSON object in one line, its units in its names: total_length_mm, volume_mm3; without what is not
  *  known. */
@@ -69,7 +70,7 @@ PlantJson(const RootModel & model, double volume);
 
 /** Length by depth and by diameter, and width by depth. \throws OutputError */
 void
-WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model);
+WriteRootProfileCsv(const std::filesystem::path & path, const RootModel & model, HeadUnits units = {});
 
 /** The data dictionary of these tables as JSON: meaning and unit of each column. */
 std::string

@@ -2,6 +2,7 @@
 // Sheets, seams and junctions of medial surfaces as files: polydata, tables, and a graph.
 
 #include "voxelcore/Models/MedialModel.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Sheets/MedialSheets.h"
 
 #include <cstdint>
@@ -80,11 +81,11 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model);
 
 /** A row per sheet and rod. \throws OutputError */
 void
-WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model);
+WriteSheetCsv(const std::filesystem::path & path, const SheetModel & model, HeadUnits units = {});
 
 /** A row per seam and rod. \throws OutputError */
 void
-WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model);
+WriteSeamCsv(const std::filesystem::path & path, const SheetModel & model, HeadUnits units = {});
 
 /** Sheets, curves and junctions as nodes; edges lead from a curve to the sheets that meet in it and the junctions at
  *  its ends. \throws OutputError */

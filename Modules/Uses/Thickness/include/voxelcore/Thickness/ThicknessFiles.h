@@ -3,6 +3,7 @@
 
 #include "voxelcore/Base/SpatialUnit.h"
 #include "voxelcore/Models/DisplayContent.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Thickness/ThicknessNumbers.h"
 
 #include <array>
@@ -37,11 +38,15 @@ struct ThicknessRecord
 
 /** A row per record. \throws OutputError */
 void
-WriteThicknessCsv(const std::filesystem::path & path, const std::vector<ThicknessRecord> & records);
+WriteThicknessCsv(const std::filesystem::path &        path,
+                  const std::vector<ThicknessRecord> & records,
+                  HeadUnits                            units = {});
 
 /** A row per record and bin. \throws OutputError */
 void
-WriteThicknessHistogramCsv(const std::filesystem::path & path, const std::vector<ThicknessRecord> & records);
+WriteThicknessHistogramCsv(const std::filesystem::path &        path,
+                           const std::vector<ThicknessRecord> & records,
+                           HeadUnits                            units = {});
 
 /** The surface of a label with a length at each point. */
 struct ThicknessSurface

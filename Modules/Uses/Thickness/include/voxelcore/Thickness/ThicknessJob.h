@@ -32,12 +32,12 @@ enum class SeparationRegion
 
 struct ThicknessOptions
 {
-  CoreOptions                          core;   ///< what is read and computed, and its report; nothing of it is written
-  std::filesystem::path                output; ///< .nrrd .nii .nii.gz .mha .mhd .tif, or a folder (IsFolderOutput)
-  bool                                 bounds = false; ///< proven bounds as volumes beside: OUT_lower, OUT_upper
-  BorderRule                           border = BorderRule::Flag;
-  SeparationRegion                     separation = SeparationRegion::None; ///< as a volume beside: OUT_separation
-  std::string                          within;  ///< of SeparationRegion::Within: labels as --labels has them, or a mask
+  CoreOptions           core;           ///< what is read and computed, and its report; nothing of it is written
+  std::filesystem::path output;         ///< .nrrd .nii .nii.gz .mha .mhd .tif .ome.zarr, or a folder (IsFolderOutput)
+  bool                  bounds = false; ///< proven bounds as volumes beside: OUT_lower, OUT_upper
+  BorderRule            border = BorderRule::Flag;
+  SeparationRegion      separation = SeparationRegion::None; ///< as a volume beside: OUT_separation
+  std::string           within;                 ///< of SeparationRegion::Within: labels as --labels has them, or a mask
   std::optional<std::filesystem::path> surface; ///< .vtp: the labels' surfaces with the point array Thickness
   std::optional<std::filesystem::path> medial;  ///< .vtp: the medial surface with it
   std::optional<std::filesystem::path> table;   ///< .csv; a histogram and a data dictionary go beside

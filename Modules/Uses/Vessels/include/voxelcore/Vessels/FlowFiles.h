@@ -2,6 +2,7 @@
 // Centerlines and networks of pipes as files for other programs.
 
 #include "voxelcore/Base/SpatialUnit.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Vessels/Centerlines.h"
 #include "voxelcore/Vessels/FlowNetwork.h"
 
@@ -24,7 +25,8 @@ void
 WriteFlowCsv(const std::filesystem::path &         segments,
              const std::filesystem::path &         nodes,
              const FlowNetwork &                   network,
-             const std::vector<MeasuredSkeleton> & parts);
+             const std::vector<MeasuredSkeleton> & parts,
+             HeadUnits                             units = {});
 
 /** What the columns of both mean, as JSON. */
 std::string

@@ -3,6 +3,7 @@
 
 #include "voxelcore/Base/SpatialUnit.h"
 #include "voxelcore/Models/SkeletonModel.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Vessels/BranchSections.h"
 #include "voxelcore/Vessels/VesselLesions.h"
 
@@ -29,7 +30,7 @@ NameSections(const SkeletonPart & part, std::vector<BranchSection> sections, std
 
 /** Comma-separated values, a row per section. \throws OutputError */
 void
-WriteSectionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts);
+WriteSectionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts, HeadUnits units = {});
 
 /** Contours as closed poly lines in XML polydata, a line per contour, with cell arrays named after the columns.
  *  \throws OutputError */
@@ -42,7 +43,7 @@ LesionText(LesionKind kind);
 
 /** Comma-separated values, a row per lesion. \throws OutputError */
 void
-WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts);
+WriteLesionCsv(const std::filesystem::path & path, const std::vector<SectionsOfPart> & parts, HeadUnits units = {});
 
 /** What the columns of both tables mean, as JSON. */
 std::string

@@ -2,6 +2,7 @@
 // What straightening tells beside its volume, as tables.
 
 #include "voxelcore/Base/SpatialUnit.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Vessels/Straightening.h"
 
 #include <filesystem>
@@ -22,11 +23,11 @@ struct MappedPoint
 
 /** Comma-separated values, a row per plane: its place, directions, radius and bend. \throws OutputError */
 void
-WritePlaneCsv(const std::filesystem::path & path, std::span<const AxisPlane> planes);
+WritePlaneCsv(const std::filesystem::path & path, std::span<const AxisPlane> planes, HeadUnits units = {});
 
 /** A row per point. \throws OutputError */
 void
-WriteMappedCsv(const std::filesystem::path & path, std::span<const MappedPoint> points);
+WriteMappedCsv(const std::filesystem::path & path, std::span<const MappedPoint> points, HeadUnits units = {});
 
 /** What the columns of both mean, as JSON. */
 std::string

@@ -36,7 +36,7 @@ struct StraightenOptions
   std::optional<Lambda>                      width; ///< to each side of the axis; else twice the greatest radius
   SampleKind                                 samples = SampleKind::Auto;
   double                                     outside = 0; ///< value where there is no scan
-  std::filesystem::path                      output;      ///< .nrrd .nii .nii.gz .mha .mhd .tif
+  std::filesystem::path                      output;      ///< .nrrd .nii .nii.gz .mha .mhd .tif .ome.zarr
   std::optional<std::filesystem::path>       table;       ///< .csv, a row per plane; its columns go beside
   std::optional<std::filesystem::path>       points;      ///< .csv with the columns x, y, z or across, up, arc_length
   std::optional<std::filesystem::path>       mapped;      ///< .csv: the same with all of these
