@@ -84,17 +84,10 @@ ResultsRead
 ReadResults(const std::filesystem::path & path)
 {
   ResultsRead   results;
-  SkeletonModel skeletons;
-  bool          areSkeletons = true;
-  try
-  {
-    skeletons = ReadSkeletonVtp(path);
-  }
-  catch (const InputError &)
-  {
-    areSkeletons = false;
-  }
-  MedialModel model;
+  auto          found = ReadSkeletonIfAny(path);
+  const bool    areSkeletons = found.has_value();
+  SkeletonModel skeletons = areSkeletons ? std::move(*found) : SkeletonModel();
+  MedialModel   model;
   if (!areSkeletons)
   {
     model = ReadModel(path); // says what is wrong when it is neither

@@ -29,7 +29,7 @@ WITHOUT = {
     **dict.fromkeys(PATHS, "results are objects; save() and to_...() write and show them"),
     **dict.fromkeys(("voxels", "graph", "change-voxels"), "the same: sheet_of_face, junctions, a comparison of arrays"),
     **dict.fromkeys(("volume", "component", "level", "raw", "dataset", "nifti-form"), "choose how a file is read"),
-    **dict.fromkeys(("resolution", "cap"), "of meshes"),
+    **dict.fromkeys(("resolution", "cap", "cover"), "of meshes"),
     **dict.fromkeys(("grey", "grey-range"), "name a second file"),
     **dict.fromkeys(("blocks", "block", "block-size", "join", "memory"), "parts of scans that do not fit into memory"),
     "with-skeleton": "Core.skeleton()",

@@ -4,6 +4,7 @@
 #include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/Refinement/Refinement.h"
+#include "voxelcore/VoxelCore/TolerancePruning.h"
 
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -54,6 +55,38 @@ TEST(CertifiedCore, PruningLaterByToleranceGivesWhatAskingForItGives)
   EXPECT_TRUE(asked.cores[0].numbers.tolerance->boundaryGapMm.has_value());
   EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseTolerance("0.5diag") }), UsageError);
   EXPECT_THROW(PruneCertified(asked.cores[0], asked.shape, { ParseLambda("2vox") }), UsageError);
+}
+
+// So that neither colours nor a slider are stretched by it.
+TEST(CertifiedCore, WhatNeverGoesHasAToleranceALittleAboveAllOthers)
+{
+  CertifiedRequest request = Lambdas({ "0" });
+  request.tolerances = { ParseTolerance("0") };
+  request.surface = SurfaceSource();
+  const CertifiedResult   whole = ComputeCertified(Box(12, 9, 7), Grid({ 1, 1, 1.5 }), request);
+  const ToleranceValues & values = whole.cores[0].core.core.tolerances;
+  const double            never = GreatestTolerance(whole.cores[0].core.core);
+  double                  last = 0;
+  for (const double value : values.vertices)
+  {
+    last = value < never ? std::max(last, value) : last;
+  }
+  EXPECT_GT(last, 0);
+  EXPECT_NEAR(never, 1.01 * last, 1e-12 * last);
+  // Beyond it all the same is left, which then has the height it was pruned at.
+  const auto atNever = PruneCertified(whole.cores[0], whole.shape, { ParseTolerance(std::to_string(never) + "mm") });
+  for (const double height : { 1.5 * never, 2.0 * never })
+  {
+    const auto later = PruneCertified(whole.cores[0], whole.shape, { ParseTolerance(std::to_string(height) + "mm") });
+    const MedialComplex & core = later[0].core.core;
+    EXPECT_EQ(core.positions, atNever[0].core.core.positions);
+    EXPECT_EQ(core.cells.vertexCount, 1U) << "all of a box prunes to a point";
+    const double given = later[0].numbers.tolerance->heightMm;
+    EXPECT_EQ(core.tolerances.vertices, std::vector<double>{ given });
+    const auto again = PruneCertified(later[0], whole.shape, { ParseTolerance("100diag") });
+    EXPECT_EQ(again[0].core.core.positions, core.positions);
+    EXPECT_EQ(again[0].core.core.tolerances.vertices, std::vector<double>{ again[0].numbers.tolerance->heightMm });
+  }
 }
 
 TEST(CertifiedCore, ACoreOfNothingIsPrunedToNothing)

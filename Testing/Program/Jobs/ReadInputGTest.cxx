@@ -36,8 +36,7 @@ TEST_F(ReadInput, EitherAResolutionOrASpacingIsNeeded)
   WriteAll(At("open.off"), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   EXPECT_THROW(VoxelizeMeshFile(At("open.off"), 8, {}), InputError) << "it bounds nothing";
   EXPECT_THROW(VoxelizeMeshFile(At("none.off"), 8, {}), InputError);
-  EXPECT_THROW(VoxelizeMeshFile(At("part.off"), 8, {}, false, [](std::string_view, double) { return false; }),
-               Cancelled);
+  EXPECT_THROW(VoxelizeMeshFile(At("part.off"), 8, {}, {}, [](std::string_view, double) { return false; }), Cancelled);
 }
 
 TEST_F(ReadInput, ScansAndMeshesAreToldApartAndSoAreTheirOptions)

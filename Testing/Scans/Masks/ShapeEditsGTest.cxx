@@ -62,14 +62,19 @@ TEST(ShapeEdits, CavitiesAreFilledBeforeSmallComponentsGo)
             (std::vector<std::string>{ "1 cavity filled with 1 voxel", "1 component removed, with 1 voxel" }));
 }
 
-TEST(ShapeEdits, WhereNothingIsFilledOrRemovedTheNotesSaySoOnce)
+TEST(ShapeEdits, WhereNothingIsFilledOrRemovedThereIsNoNote)
 {
   ShapeEditOptions options;
   options.fillCavities = true;
   options.minVoxels = 2;
+  options.mend = true;
+  options.close = ParseGapWidth("2vox");
+  options.fillHollows = ParseGapWidth("2vox");
+  options.fillSlices = SliceAxis::I;
+  options.smooth = true;
   const auto         solid = ShapeWhere({ 5, 5, 5 }, [](int, int, int) { return true; });
   const EditedLabels edited = EditLabels({ Label(3, solid) }, kGeometry, options, true, "a.nrrd");
-  EXPECT_EQ(edited.notes, (std::vector<std::string>{ "no cavities to fill", "no components to remove" }));
+  EXPECT_TRUE(edited.notes.empty());
 }
 
 TEST(ShapeEdits, GapsCloseBeforeHollowsSlicesAndCavitiesAreFilled)

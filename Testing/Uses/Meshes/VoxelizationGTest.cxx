@@ -3,10 +3,14 @@
 #include "ExactWinding.h"
 #include "MeshFixtures.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Shape/ShapeTopology.h"
 
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <omp.h>
 #include <random>
+#include <set>
 
 using namespace voxelcore;
 using namespace voxelcore::testing;
@@ -158,4 +162,75 @@ TEST(Voxelization, CanBeCancelled)
   int                calls = 0;
   EXPECT_THROW(Voxelize(mesh, GridOfResolution(mesh, 300), [&](std::string_view, double) { return ++calls < 2; }),
                Cancelled);
+}
+
+TEST(Voxelization, WithCoverThinPartsStayInOnePiece)
+{
+  // A needle a tenth of a voxel thick and a sheet that leave a ball; of both no centre is in.
+  constexpr unsigned seed = 11;
+  std::mt19937       random(seed);
+  for (int turn = 0; turn < 20; ++turn)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", turn " + std::to_string(turn));
+    TriangleMesh mesh = StarMesh({ 20, 20, 20 }, 5, 6, 0, random);
+    const auto   add = [&](const Vector3 & a, const Vector3 & b, const Vector3 & c, const Vector3 & d) {
+      const auto at = static_cast<std::uint32_t>(mesh.points.size());
+      mesh.points.insert(mesh.points.end(), { a, b, c, d });
+      for (const auto & t : { std::array{ 0U, 2U, 1U }, { 0U, 1U, 3U }, { 1U, 2U, 3U }, { 2U, 0U, 3U } })
+      {
+        mesh.triangles.push_back({ at + t[0], at + t[1], at + t[2] });
+      }
+    };
+    add({ 20, 20, 20 }, { 20.1, 20, 20 }, { 20, 20.1, 20 }, { 38, 33, 36 });
+    add({ 20, 20, 20 }, { 20, 20.05, 20.05 }, { 4, 6, 19 }, { 6, 22, 3 });
+    mesh = Turned(std::move(mesh), random);
+    VoxelGrid          grid = GridOfResolution(mesh, 40);
+    const Voxelization plain = Voxelize(mesh, grid);
+    const Voxelization covered = Voxelize(mesh, grid, {}, true);
+    EXPECT_EQ(covered.voxels, plain.voxels + covered.touched);
+    EXPECT_EQ(covered.voxels, covered.shape.CountVoxels());
+    EXPECT_EQ(CountComponents26(covered.shape), 1);
+    // Each place of the surface lies in a voxel, and each voxel that was added has one within half a voxel's diagonal
+    // and the distance of places.
+    std::set<std::array<std::int32_t, 3>> near;
+    constexpr int                         steps = 400;
+    for (const auto & corners : mesh.triangles)
+    {
+      for (int u = 0; u <= steps; ++u)
+      {
+        for (int v = 0; u + v <= steps; v += steps / 20)
+        {
+          std::array<std::int32_t, 3> voxel{};
+          for (std::size_t a = 0; a < 3; ++a)
+          {
+            const double place =
+              mesh.points[corners[0]][a] + (u * (mesh.points[corners[1]][a] - mesh.points[corners[0]][a]) +
+                                            v * (mesh.points[corners[2]][a] - mesh.points[corners[0]][a])) /
+                                             steps;
+            voxel[a] = std::clamp(static_cast<std::int32_t>(std::floor((place - grid.origin[a]) / grid.spacing[a])),
+                                  0,
+                                  grid.size[a] - 1);
+          }
+          EXPECT_TRUE(covered.shape.Contains(voxel[0], voxel[1], voxel[2]));
+          near.insert(voxel);
+        }
+      }
+    }
+    const VoxelBox & box = covered.shape.Box();
+    for (std::int32_t z = box.lower[2]; z < box.lower[2] + box.size[2]; ++z)
+    {
+      for (std::int32_t y = box.lower[1]; y < box.lower[1] + box.size[1]; ++y)
+      {
+        for (std::int32_t x = box.lower[0]; x < box.lower[0] + box.size[0]; ++x)
+        {
+          bool isNear = false;
+          for (int n = 0; n < 27 && !isNear; ++n)
+          {
+            isNear = near.contains({ x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1 });
+          }
+          EXPECT_TRUE(isNear || plain.shape.Contains(x, y, z) || !covered.shape.Contains(x, y, z));
+        }
+      }
+    }
+  }
 }

@@ -297,4 +297,19 @@ ReadSkeletonVtp(const std::filesystem::path & path)
   return model;
 }
 
+std::optional<SkeletonModel>
+ReadSkeletonIfAny(const std::filesystem::path & path)
+{
+  bool isSkeleton = false;
+  try
+  {
+    ReadFrom(path, Precision::AsSaved, "skeleton", [&](ModelSource & source) {
+      isSkeleton = source.Has("CellData", "BranchId");
+    });
+  }
+  catch (const InputError &)
+  {}
+  return isSkeleton ? std::optional(ReadSkeletonVtp(path)) : std::nullopt;
+}
+
 } // namespace voxelcore

@@ -168,12 +168,12 @@ private:
     std::string   provenance;
     MedialModel   surfaces;
     SkeletonModel skeletons;
-    try
+    if (auto found = ReadSkeletonIfAny(path))
     {
-      skeletons = ReadSkeletonVtp(path);
+      skeletons = std::move(*found);
       provenance = skeletons.provenance;
     }
-    catch (const InputError &)
+    else
     {
       surfaces = ReadModel(path, Precision::AsSaved); // says what is wrong when it is neither
       provenance = surfaces.provenance;

@@ -2,7 +2,9 @@
 
 #include "voxelcore/Jobs/CoreJob.h"
 #include "voxelcore/Jobs/JobTools.h"
+#include "voxelcore/VoxelCore/TolerancePruning.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxelcore
@@ -107,6 +109,15 @@ MadeAgain::Check(const ModelPart &        part,
   if (m_Made.parameters.model.triangles)
   {
     core = Triangulated(core);
+  }
+  // Of all parts of a file what never goes has one tolerance.
+  const double own = GreatestTolerance(core);
+  if (const double never = GreatestTolerance(part.core); never > own)
+  {
+    for (auto * values : { &core.tolerances.vertices, &core.tolerances.edges, &core.tolerances.faces })
+    {
+      std::ranges::replace(*values, own, never);
+    }
   }
   for (std::size_t edge = 0; edge < core.edgeLambda.size() && edge < part.core.edgeLambda.size(); ++edge)
   {

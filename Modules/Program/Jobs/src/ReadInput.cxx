@@ -95,7 +95,7 @@ MeshVolume
 VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<std::int64_t> & resolution,
                  const std::optional<Vector3> &      spacing,
-                 bool                                cap,
+                 const MeshReading &                 reading,
                  const ProgressCallback &            progress)
 {
   if (resolution.has_value() == spacing.has_value())
@@ -107,9 +107,9 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
   MeshFile file = ReadMesh(path);
   try
   {
-    const std::uint64_t holes = cap ? CapHoles(file.mesh) : 0;
+    const std::uint64_t holes = reading.cap ? CapHoles(file.mesh) : 0;
     const VoxelGrid grid = resolution ? GridOfResolution(file.mesh, *resolution) : GridOfSpacing(file.mesh, *spacing);
-    Voxelization    made = Voxelize(file.mesh, grid, PartOfProgress(progress, 0.2, 1));
+    Voxelization    made = Voxelize(file.mesh, grid, PartOfProgress(progress, 0.2, 1), reading.cover);
     if (file.mayBeCut && made.findings.rule == InsideRule::Votes)
     {
       throw InputError("it seems cut off: its last line does not end, or points lie on no face, and it is open at " +
@@ -119,9 +119,13 @@ VoxelizeMeshFile(const std::filesystem::path &       path,
     result.findings = made.findings;
     result.doubtful = made.doubtful;
     result.volume = AsVolume(path, file, grid, made);
-    if (cap)
+    if (reading.cap)
     {
       result.volume.notes.push_back(Counted(holes, "hole", "holes") + " of the mesh capped");
+    }
+    if (made.touched > 0)
+    {
+      result.volume.notes.push_back(Counted(made.touched, "voxel", "voxels") + " added that the mesh touches");
     }
     result.mesh = std::make_shared<const TriangleMesh>(std::move(file.mesh));
     return result;
@@ -170,9 +174,10 @@ ReadScanOrMesh(const std::filesystem::path &       path,
       throw UsageError("--resolution " + std::to_string(*resolution) + ": is for meshes, and " + path.string() +
                        " is none; leave it out");
     }
-    if (options.cap)
+    if (options.mesh.cap || options.mesh.cover)
     {
-      throw UsageError("--cap: is for meshes, and " + path.string() + " is none; leave it out");
+      throw UsageError(std::string(options.mesh.cap ? "--cap" : "--cover") + ": is for meshes, and " + path.string() +
+                       " is none; leave it out");
     }
     return { ReadLabelVolume(path, options, progress), {} };
   }
@@ -181,9 +186,9 @@ ReadScanOrMesh(const std::filesystem::path &       path,
       options.niftiForm != "auto")
   {
     throw UsageError(path.string() + ": a mesh is one shape, without labels, values or directions; of the options " +
-                     "about reading give only --resolution, --spacing and --cap");
+                     "about reading give only --resolution, --spacing, --cap and --cover");
   }
-  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, options.cap, progress);
+  MeshVolume made = VoxelizeMeshFile(path, resolution, options.spacing, options.mesh, progress);
   return { std::move(made.volume), std::move(made.mesh) };
 }
 

@@ -269,16 +269,7 @@ ReadSurface(const std::filesystem::path & path)
   }
   catch (const InputError &)
   {
-    bool isSkeleton = true;
-    try
-    {
-      (void)ReadSkeletonVtp(path);
-    }
-    catch (const InputError &)
-    {
-      isSkeleton = false;
-    }
-    if (!isSkeleton)
+    if (!ReadSkeletonIfAny(path))
     {
       throw;
     }

@@ -89,7 +89,7 @@ VoxelizeOptionsFrom(const ParameterValues & values)
   {
     throw UsageError("give either --resolution (voxels along the longest side) or --spacing (voxel size in mm)");
   }
-  options.cap = reader.IsSet("cap");
+  options.reading = { reader.IsSet("cap"), reader.IsSet("cover") };
   options.output = reader.File("output");
   options.report = reader.FileIfGiven("report");
   options.force = reader.IsSet("force");

@@ -227,8 +227,8 @@ constexpr const char * kOpenAtBorder = "open_at_border";
 bool
 IsOfSome(std::string_view name)
 {
-  return name == "resolution" || name == "cap" || name == "dataset" || name == "level" || name == "raw" ||
-         name == "close" || name == "fill_hollows" || name == kOpenAtBorder || name == "fill_slices" ||
+  return name == "resolution" || name == "cap" || name == "cover" || name == "dataset" || name == "level" ||
+         name == "raw" || name == "close" || name == "fill_hollows" || name == kOpenAtBorder || name == "fill_slices" ||
          name == "connectivity" || name == "median" || name == "denoise" || name == "simplify_topology" ||
          name == "pieces" || name == "loops" || name == "cavities" || name == "change_voxels" || name == kJoinTorn;
 }

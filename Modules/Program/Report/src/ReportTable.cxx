@@ -110,10 +110,15 @@ ReportTable(const CoreReport & report)
     }
     return gap;
   });
+  const bool               hasGaps = std::ranges::any_of(report.labels, [](const LabelRecord & label) {
+    return std::ranges::any_of(label.pruned, [](const PrunedRecord & pruned) {
+      return pruned.tolerance && pruned.tolerance->boundaryGapMm;
+    });
+  });
   for (const std::string & value : byTolerance ? report.parameters.tolerances : report.parameters.lambda)
   {
     head.push_back("faces at " + value);
-    if (byTolerance)
+    if (hasGaps)
     {
       head.emplace_back("gap " + unit.Name());
     }
@@ -134,7 +139,7 @@ ReportTable(const CoreReport & report)
     for (const PrunedRecord & pruned : label.pruned)
     {
       row.push_back(std::to_string(pruned.complex.faces));
-      if (byTolerance)
+      if (hasGaps)
       {
         const auto gap = pruned.tolerance ? pruned.tolerance->boundaryGapMm : std::nullopt;
         row.push_back(gap ? unit.Text(*gap, 1, 3) : "-");

@@ -24,7 +24,7 @@ RefuseBmp(const std::filesystem::path & path, std::string_view wrong)
 
 struct BmpHeader
 {
-  BmpPage                    page;
+  GreyPage                   page;
   bool                       isUpwards = true; ///< the lowest row comes first
   std::uint32_t              bits = 8;
   std::uint64_t              offset = 0; ///< of the pixels
@@ -141,7 +141,7 @@ private:
 
 } // namespace
 
-BmpPage
+GreyPage
 InspectBmp(const std::filesystem::path & path)
 {
   return ReadHeader(path).page;

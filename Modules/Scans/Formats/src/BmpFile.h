@@ -10,14 +10,15 @@
 namespace voxelcore
 {
 
-struct BmpPage
+/** The size of a grey slice of a byte a value. */
+struct GreyPage
 {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
 };
 
 /** \throws InputError when the file is damaged, packed, or a colour picture. */
-BmpPage
+GreyPage
 InspectBmp(const std::filesystem::path & path);
 
 /** The grey values of the slice, a byte each, from the upper row down. \throws InputError as above */

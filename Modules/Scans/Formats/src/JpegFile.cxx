@@ -89,7 +89,7 @@ public:
     jpeg_destroy_decompress(&m_Reader);
   }
 
-  JpegPage
+  GreyPage
   Page() const
   {
     return { m_Reader.image_width, m_Reader.image_height };
@@ -199,7 +199,7 @@ private:
 
 } // namespace
 
-JpegPage
+GreyPage
 InspectJpeg(const std::filesystem::path & path)
 {
   return JpegReader(path).Page();
@@ -224,7 +224,7 @@ RefuseJpeg(const std::filesystem::path & path)
 
 } // namespace
 
-JpegPage
+GreyPage
 InspectJpeg(const std::filesystem::path & path)
 {
   RefuseJpeg(path);

@@ -2,23 +2,16 @@
 // JPEG pictures as slices, grey ones alone: what is written so is no longer quite what it was, so that a threshold
 // must say what is shape.
 
-#include "voxelcore/Formats/ByteStream.h"
+#include "BmpFile.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 
 namespace voxelcore
 {
 
-struct JpegPage
-{
-  std::uint32_t width = 0;
-  std::uint32_t height = 0;
-};
-
 /** \throws InputError when it is damaged, or this build reads none */
-JpegPage
+GreyPage
 InspectJpeg(const std::filesystem::path & path);
 
 /** Its values, a byte each, row by row. \throws InputError, also where it turns out to be coloured */

@@ -108,20 +108,12 @@ InspectSlice(const std::filesystem::path & path, const ReadOptions & options)
     return InspectTiff(path, options);
   }
   page.offsets = { 0 };
-  if (kind == SliceKind::Bmp)
+  if (kind != SliceKind::Png)
   {
-    const BmpPage bmp = InspectBmp(path);
-    page.width = bmp.width;
-    page.height = bmp.height;
-    ChooseComponent(path, 1, "grey picture", options);
-    return page;
-  }
-  if (kind == SliceKind::Jpeg)
-  {
-    const JpegPage jpeg = InspectJpeg(path);
-    page.width = jpeg.width;
-    page.height = jpeg.height;
-    page.lossy = true;
+    page.lossy = kind == SliceKind::Jpeg;
+    const GreyPage grey = page.lossy ? InspectJpeg(path) : InspectBmp(path);
+    page.width = grey.width;
+    page.height = grey.height;
     ChooseComponent(path, 1, "grey picture", options);
     return page;
   }

@@ -100,18 +100,19 @@ std::vector<std::string>
 EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
 {
   std::vector<std::string> notes;
-  if (sum.filtered)
+  const auto hasChanged = [](const auto & record) { return record && record->voxelsAdded + record->voxelsRemoved > 0; };
+  if (hasChanged(sum.filtered))
   {
     notes.push_back("median of " + std::to_string(options.median->voxels) +
                     " voxels: " + Counted(sum.filtered->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.filtered->voxelsRemoved) + " removed");
   }
-  if (sum.denoised)
+  if (hasChanged(sum.denoised))
   {
     notes.push_back("denoised: " + Counted(sum.denoised->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.denoised->voxelsRemoved) + " removed");
   }
-  if (sum.mended)
+  if (hasChanged(sum.mended))
   {
     notes.push_back("mended: " + Counted(sum.mended->piecesJoined, "piece", "pieces") + " joined, " +
                     Counted(sum.mended->loopsClosed, "loop", "loops") + " closed, " +
@@ -122,23 +123,17 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
   const auto joined = [](std::uint64_t components, const char * where) {
     return components > 0 ? ", " + Counted(components, "component", "components") + where + " joined" : std::string();
   };
-  const auto filled = [&](const std::string & what, const std::string & none, const auto & record) {
-    if (record)
+  const auto filled = [&](const std::string & what, const auto & record) {
+    if (record && record->voxelsAdded > 0)
     {
-      notes.push_back(record->voxelsAdded > 0 ? what + " with " + Counted(record->voxelsAdded, "voxel", "voxels") +
-                                                  joined(record->componentsJoined, "")
-                                              : none);
+      notes.push_back(what + " with " + Counted(record->voxelsAdded, "voxel", "voxels") +
+                      joined(record->componentsJoined, ""));
     }
   };
-  const std::string gaps = "gaps up to " + (options.close ? options.close->text : "");
-  filled(gaps + " closed", "no " + gaps + " to close", sum.closed);
-  filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled",
-         "no hollows to fill",
-         sum.hollows);
-  filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled",
-         "no holes in slices to fill",
-         sum.slices);
-  if (sum.connected && sum.connected->voxelsAdded + sum.connected->voxelsRemoved > 0)
+  filled("gaps up to " + (options.close ? options.close->text : "") + " closed", sum.closed);
+  filled(Counted(sum.hollows ? sum.hollows->holes : 0, "hollow", "hollows") + " filled", sum.hollows);
+  filled(Counted(sum.slices ? sum.slices->holes : 0, "hole", "holes") + " of slices filled", sum.slices);
+  if (hasChanged(sum.connected))
   {
     notes.push_back(
       "voxels that touch over edges and corners joined: " +
@@ -157,27 +152,24 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
          : "") +
       "; to keep them apart: --connectivity 6");
   }
-  if (options.fillCavities && !(options.fillUnasked && sum.cavitiesFilled == 0))
+  if (options.fillCavities && sum.cavitiesFilled > 0)
   {
     notes.push_back(
-      sum.cavitiesFilled == 0
-        ? std::string("no cavities to fill")
-        : Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
-            Counted(sum.voxelsAdded, "voxel", "voxels") + joined(sum.componentsJoined, " in them") +
-            (options.fillUnasked ? ", so that curves are left; to keep surfaces around them: --cavities keep" : ""));
+      Counted(sum.cavitiesFilled, "cavity", "cavities") + " filled with " +
+      Counted(sum.voxelsAdded, "voxel", "voxels") + joined(sum.componentsJoined, " in them") +
+      (options.fillUnasked ? ", so that curves are left; to keep surfaces around them: --cavities keep" : ""));
   }
   if (sum.torn && sum.torn->componentsJoined > 0)
   {
     notes.push_back(Counted(sum.torn->componentsJoined, "torn piece", "torn pieces") + " joined with " +
                     Counted(sum.torn->voxelsAdded, "voxel", "voxels"));
   }
-  if (options.minVoxels || options.largest)
+  if ((options.minVoxels || options.largest) && sum.componentsRemoved > 0)
   {
-    notes.push_back(sum.componentsRemoved == 0 ? std::string("no components to remove")
-                                               : Counted(sum.componentsRemoved, "component", "components") +
-                                                   " removed, with " + Counted(sum.voxelsRemoved, "voxel", "voxels"));
+    notes.push_back(Counted(sum.componentsRemoved, "component", "components") + " removed, with " +
+                    Counted(sum.voxelsRemoved, "voxel", "voxels"));
   }
-  if (sum.smoothed)
+  if (hasChanged(sum.smoothed))
   {
     char shift[32];
     (void)std::snprintf(shift, sizeof(shift), "%.2f", sum.smoothed->largestShift);
@@ -185,7 +177,7 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
                     std::to_string(sum.smoothed->voxelsRemoved) + " removed; the boundary moved by " + shift +
                     " voxels at most");
   }
-  if (sum.simplified)
+  if (hasChanged(sum.simplified))
   {
     const EditRecord::Simplified & simplified = *sum.simplified;
     notes.push_back("topology simplified: " + CountsText(simplified.before) + " became " +
@@ -193,7 +185,7 @@ EditsInWords(const EditRecord & sum, const ShapeEditOptions & options)
                     Counted(simplified.voxelsRemoved, "voxel", "voxels") + " and " +
                     Counted(simplified.fills, "fill", "fills") + " of " + std::to_string(simplified.voxelsAdded));
   }
-  if (sum.changed)
+  if (hasChanged(sum.changed))
   {
     notes.push_back("voxels changed as listed: " + Counted(sum.changed->voxelsAdded, "voxel", "voxels") + " added, " +
                     std::to_string(sum.changed->voxelsRemoved) + " removed");

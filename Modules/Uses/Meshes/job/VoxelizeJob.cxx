@@ -196,7 +196,7 @@ RunVoxelizeJob(const VoxelizeJobOptions & options, const JobContext & given)
     MeshVolume made = VoxelizeMeshFile(options.mesh,
                                        runs[i].resolution,
                                        options.spacing,
-                                       options.cap,
+                                       options.reading,
                                        PartOfProgress(context.progress, at(0), at(0.5)));
     volumes.push_back(VolumeJson(runs[i].target, made));
     result.lines.push_back(LineOf(runs[i].target, made));

@@ -3,6 +3,7 @@
 #include "AxisCrossings.h"
 #include "RayVotes.h"
 #include "RowBits.h"
+#include "TouchedVoxels.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParallelTasks.h"
 
@@ -55,7 +56,7 @@ FillByRows(const AxisCrossings & crossings, VoxelShape & shape, const ProgressCa
 } // namespace
 
 Voxelization
-Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallback & progress)
+Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallback & progress, bool cover)
 {
   ReportProgress(progress, "voxelize", 0);
   const MeshSurface surface = PrepareSurface(mesh);
@@ -66,6 +67,7 @@ Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallba
   result.doubtful = surface.findings.rule == InsideRule::Votes
                       ? FillByVotes(indexed, surface, grid, result.shape, progress)
                       : FillByRows(AxisCrossings(indexed, surface, grid, 0), result.shape, progress);
+  result.touched = cover ? AddTouchedVoxels(indexed, surface, result.shape) : 0;
   result.voxels = result.shape.CountVoxels();
   if (result.voxels == 0)
   {

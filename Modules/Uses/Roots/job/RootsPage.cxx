@@ -129,6 +129,10 @@ PlantTable(const RootModel & model, double volume, const std::string & unit)
   std::string html = "<table>\n";
   for (const auto & [name, value] : rows)
   {
+    if (value == 0 || std::isnan(value)) // such as no contacts
+    {
+      continue;
+    }
     html += "<tr><th>" + name + "</th><td>" + NumberText(value) + "</td></tr>\n";
   }
   return html + "</table>\n";

@@ -127,12 +127,18 @@ RootsText(const RootsResult & result)
                      angle(level.meanEmergenceAngle),
                      angle(level.meanTipFromDown) });
   }
-  return FormatTable(rows) + std::to_string(traits.contacts) + (traits.contacts == 1 ? " contact" : " contacts") +
-         " of roots, " + std::to_string(traits.undecidedContacts) + " undecided; " + std::to_string(traits.whorls) +
-         (traits.whorls == 1 ? " whorl" : " whorls") + "; of the skeleton's " + unit.Text(traits.balance.skeleton) +
-         " " + unit.Name() + " " + unit.Text(traits.balance.roots) + " on roots, " + unit.Text(traits.balance.within) +
-         " within their parents, " + unit.Text(traits.balance.LeftOut()) + " left out" + "; depth " +
-         unit.Text(traits.depth) + " " + unit.Name() + ", width " + unit.Text(traits.width) + " " + unit.Name() + "\n";
+  const auto counted = [](std::size_t count, const char * one, const char * more) {
+    return count > 0 ? std::to_string(count) + (count == 1 ? one : more) : std::string();
+  };
+  const std::string leftOut = unit.Text(traits.balance.LeftOut());
+  const bool        isLeft = leftOut.find_first_of("123456789") != std::string::npos;
+  return FormatTable(rows) + counted(traits.contacts, " contact of roots", " contacts of roots") +
+         (traits.undecidedContacts > 0 ? ", " : "") + counted(traits.undecidedContacts, " undecided", " undecided") +
+         (traits.contacts > 0 ? "; " : "") + counted(traits.whorls, " whorl; ", " whorls; ") + "of the skeleton's " +
+         unit.Text(traits.balance.skeleton) + " " + unit.Name() + " " + unit.Text(traits.balance.roots) +
+         " on roots, " + unit.Text(traits.balance.within) + " within their parents" +
+         (isLeft ? ", " + leftOut + " left out" : "") + "; depth " + unit.Text(traits.depth) + " " + unit.Name() +
+         ", width " + unit.Text(traits.width) + " " + unit.Name() + "\n";
 }
 
 } // namespace voxelcore

@@ -173,8 +173,14 @@ LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
       }
     }
     mask.scan.edited = std::move(edited);
-    notes.push_back("hollows are filled where they open through holes up to " + core.edits.fillHollows->text +
-                    " wide; for another width give --fill-hollows");
+    const auto hasHollows = [](const EditedLabel & one) {
+      return one.edits && one.edits->hollows && one.edits->hollows->voxelsAdded > 0;
+    };
+    if (std::ranges::any_of(mask.scan.edited.labels, hasHollows))
+    {
+      notes.push_back("hollows are filled where they open through holes up to " + core.edits.fillHollows->text +
+                      " wide; for another width give --fill-hollows");
+    }
   }
   if (mask.scan.edited.labels.empty() || core.edits.simplify || core.edits.change)
   {

@@ -40,6 +40,10 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
 SkeletonModel
 ReadSkeletonVtp(const std::filesystem::path & path);
 
+/** The same, none where the file holds no skeleton or cannot be read at all. \throws InputError for a damaged one */
+std::optional<SkeletonModel>
+ReadSkeletonIfAny(const std::filesystem::path & path);
+
 /** SWC in micrometres (in voxels where the unit is the voxel), LPS axes: `id type x y z radius parent`, parents
  *  first. Cycles are cut (CutLoops), which the header lists; where faces stay a tree begins anew. `root` as in
  *  MeasureOptions. Types are 0, or of a network 5 and on by label.

@@ -32,13 +32,12 @@ bool
 IsMeshFile(const std::filesystem::path & path);
 
 /** Reads and voxelizes a mesh, either with `resolution` voxels on its longest side or with voxels of this size, mm.
- *  `cap`: its holes are closed first (CapHoles).
  *  \throws UsageError unless exactly one of the two is given; InputError; Cancelled */
 MeshVolume
 VoxelizeMeshFile(const std::filesystem::path &       path,
                  const std::optional<std::int64_t> & resolution,
                  const std::optional<Vector3> &      spacing,
-                 bool                                cap = false,
+                 const MeshReading &                 reading = {},
                  const ProgressCallback &            progress = {});
 
 /** What a job works on, opened once. */

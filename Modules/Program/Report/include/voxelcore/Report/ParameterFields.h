@@ -20,7 +20,8 @@ VisitScanFields(TOptions & options, TVisit && visit)
   visit("dataset", options.reading.dataset);
   visit("spacing", options.reading.spacing);
   visit("resolution", options.resolution);
-  visit("cap", options.reading.cap);
+  visit("cap", options.reading.mesh.cap);
+  visit("cover", options.reading.mesh.cover);
   visit("orthonormalize", options.reading.orthonormalize);
   visit("nifti_form", options.reading.niftiForm);
   visit("crop", options.reading.crop);

@@ -12,6 +12,13 @@
 namespace voxelcore
 {
 
+/** How a mesh becomes voxels. */
+struct MeshReading
+{
+  bool cap = false;   ///< close its holes first
+  bool cover = false; ///< take the voxels that it touches, too
+};
+
 /** How to read. A combination without sense is a UsageError. */
 struct ReadOptions
   : LabelChoice
@@ -22,8 +29,8 @@ struct ReadOptions
   std::optional<std::int64_t> component;          ///< which of several values a voxel, from 0
   std::optional<std::int64_t> level;              ///< which resolution of an OME-Zarr image, from 0, the finest
   std::optional<std::string>  dataset;            ///< an array of an HDF5 or .vti file
-  bool                        cap = false;        ///< close the holes of a mesh
-  std::optional<RawLayout>    raw;                ///< the file is bare voxels of this layout, whatever its name
+  MeshReading                 mesh{};
+  std::optional<RawLayout>    raw; ///< the file is bare voxels of this layout, whatever its name
 };
 
 } // namespace voxelcore

@@ -67,14 +67,20 @@ struct Voxelization
   /** By rule Winding: voxels in several parts at once, or in one that is inside out while the mesh as a whole is not.
    *  By Votes: voxels, in or not, of which the rays do not all say the same. */
   std::uint64_t doubtful = 0;
+
+  std::uint64_t touched = 0; ///< with `cover`: voxels that were added
 };
 
-/** Time and memory grow with the surface, besides one bit a voxel of the grid (nine bits for a rule of Votes, of two
+/** With `cover` each voxel that the surface passes through (by a billionth of a voxel or more, or less) is in, too:
+ *  parts thinner than a voxel stay, and what hangs together in the mesh hangs together over faces, edges or corners of
+ *  voxels.
+ *
+ *  Time and memory grow with the surface, besides one bit a voxel of the grid (nine bits for a rule of Votes, of two
  *  slices only). The result does not depend on the number of threads.
  *  Progress is reported as stage "voxelize".
  *  \throws InputError, without the name of a file, for a mesh that bounds nothing (no voxel is in, or nowhere do five
  *  of six rays say in); Cancelled */
 Voxelization
-Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallback & progress = {});
+Voxelize(const TriangleMesh & mesh, const VoxelGrid & grid, const ProgressCallback & progress = {}, bool cover = false);
 
 } // namespace voxelcore

@@ -18,9 +18,9 @@ struct VoxelizeJobOptions
   std::filesystem::path                mesh;
   std::vector<std::int64_t>            resolutions; ///< either these; several give OUT_resolution-256.nrrd and so on
   std::optional<Vector3>               spacing;     ///< or this, mm
-  bool                                 cap = false; ///< close holes first
-  std::filesystem::path                output;      ///< .nrrd .nii .nii.gz .mha .mhd .tif .ome.zarr
-  std::optional<std::filesystem::path> report;      ///< .json
+  MeshReading                          reading;
+  std::filesystem::path                output; ///< .nrrd .nii .nii.gz .mha .mhd .tif .ome.zarr
+  std::optional<std::filesystem::path> report; ///< .json
   bool                                 force = false;
 };
 
