@@ -337,7 +337,9 @@ TEST_F(BadInput, ACoreOrSkeletonWithANumberThatCannotBeIsRefusedByEveryCommand)
     refused({ "measure", m_Folder / "bent.vtp", "-o", m_Folder / "o.csv" }, "bent.vtp");
 #ifdef VOXELCORE_HAS_DISPLAY
     refused({ "render", m_Folder / "bad.vtp", "-o", m_Folder / "o.png" }, "bad.vtp");
-    refused({ "render", m_Folder / "bent.vtp", "-o", m_Folder / "o.png" }, "bent.vtp");
+    ExpectRefusal(RunProgram({ "render", m_Folder / "bent.vtp", "-o", m_Folder / "o.png" }),
+                  3,
+                  { "bent.vtp", "a Radius or BallRadius is below 0" });
 #endif
   }
 }

@@ -323,7 +323,7 @@ TEST_F(BatchCommand, HostileIdsStayInTheOutputFolder)
   auto after = m_Folder.Names();
   EXPECT_EQ(after.erase("out"), 1U);
   EXPECT_EQ(after, before);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(m_Folder / "out"), {}), 4 + std::ptrdiff_t(ids.size()));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(m_Folder / "out"), {}), 5 + std::ptrdiff_t(ids.size()));
   const std::string table = ReadAll(m_Folder / "out/cases.csv");
   EXPECT_THAT(table, HasSubstr("\n'=cmd|"));
   EXPECT_THAT(table, HasSubstr(",parameters_labels,"));

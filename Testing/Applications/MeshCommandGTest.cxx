@@ -100,6 +100,7 @@ TEST_F(MeshCommand, AStudyWritesEachResolutionAndLambdaAndOneTable)
   EXPECT_EQ(m_Folder.Names(),
             (std::set<std::string>{ "box.ply",
                                     "study.csv",
+                                    "study_columns.json",
                                     "study_resolution-8_lambda-1pct.vtp",
                                     "study_resolution-8_lambda-10pct.vtp",
                                     "study_resolution-16_lambda-1pct.vtp",

@@ -77,13 +77,9 @@ def walk(scene, program, dump, voxels):
         # Right place: every vertex within the label.
         for point in data["points"]:
             check(label_at(voxels, point) == label, "%s lies outside %s" % (point, name))
-    # Colours: one range for all, that of most of the surface, so that the few smallest radii do not take the map.
-    check(len(ranges) == 1, "ranges %s" % ranges)
-    low, high = (float(x) for x in ranges.pop().split())
-    check(
-        min(radii) < low - 1e-3 and low < high <= max(radii) + 1e-6,
-        "%s to %s of %s to %s" % (low, high, min(radii), max(radii)))
     # curves
+    of_surfaces = radii
+    of_curves = []
     for curve in kinds["MarkupsCurve"]:
         markups = json.loads((scene.parent / unquote(part(curve, "storage").get("fileName"))).read_text())["markups"]
         check(len(markups) == 1 and markups[0]["type"] == "Curve" and markups[0]["coordinateSystem"] == "LPS" and
@@ -91,8 +87,15 @@ def walk(scene, program, dump, voxels):
         points = [p["position"] for p in markups[0]["controlPoints"]]
         radii = markups[0]["measurements"][0]
         check(radii["name"] == "Radius" and len(radii["controlPointValues"]) == len(points) >= 2, "radii")
+        of_curves += radii["controlPointValues"]
         label = next(v for v, name in NAMES.items() if curve.get("name").startswith(name))
         check(all(label_at(voxels, p) == label for p in points), "a curve leaves its label")
+    # Colours: one range for all, that of most of what is shown, so that the few smallest radii do not take the map.
+    check(len(ranges) == 1, "ranges %s" % ranges)
+    low, high = (float(x) for x in ranges.pop().split())
+    check(
+        min(of_surfaces) < low - 1e-3 and low < high <= max(of_surfaces + of_curves) + 1e-6,
+        "%s to %s of %s to %s" % (low, high, min(of_surfaces), max(of_surfaces + of_curves)))
     # the segmentation
     file = scene.parent / unquote(part(kinds["Segmentation"][0], "storage").get("fileName"))
     found = {int(s["LabelValue"]): s for s in segments(file).values()}

@@ -76,6 +76,37 @@ TEST(OutputTransaction, AFileThatAppearsMeanwhileIsNotReplacedAndNothingElseIsWr
   EXPECT_EQ(ReadAll(folder / "b.vtp"), "another's");
 }
 
+TEST(OutputTransaction, AStoreIsReplacedAsFilesAre)
+{
+  const TemporaryFolder folder;
+  const auto            make = [](const std::filesystem::path & store, const std::string & text) {
+    std::filesystem::create_directories(store / "0");
+    WriteAll(store / "zarr.json", text);
+    WriteAll(store / "0" / text, text);
+  };
+  make(folder / "a.zarr", "old");
+  std::filesystem::create_directory(folder / "other.zarr");
+  EXPECT_THROW(OutputTransaction(false).CheckTarget(folder / "a.zarr"), OutputError);
+  EXPECT_THROW(OutputTransaction(true).CheckTarget(folder / "other.zarr"), OutputError) << "is no store";
+  {
+    OutputTransaction transaction(true);
+    make(transaction.StageWithCompanions(folder / "a.zarr"), "new");
+    EXPECT_EQ(ReadAll(folder / "a.zarr/zarr.json"), "old");
+    transaction.Commit();
+  }
+  EXPECT_EQ(ReadAll(folder / "a.zarr/zarr.json"), "new");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.zarr/0/old"));
+  {
+    OutputTransaction transaction(true);
+    make(transaction.StageWithCompanions(folder / "a.zarr"), "newer");
+    make(transaction.StageWithCompanions(folder / "b.zarr"), "newer");
+    WriteAll(folder / "b.zarr", "in the way of a folder");
+    EXPECT_THROW(transaction.Commit(), OutputError);
+  }
+  EXPECT_EQ(ReadAll(folder / "a.zarr/zarr.json"), "new") << "all or nothing";
+  EXPECT_EQ(folder.Names(), (std::set<std::string>{ "a.zarr", "b.zarr", "other.zarr" }));
+}
+
 TEST(OutputTransaction, CompanionsComeAlong)
 {
   const TemporaryFolder folder;
