@@ -217,7 +217,7 @@ cases; a case's own take precedence.
 
 Each case runs in its own process. A failure costs only that case, and the exit code is then 1. Run the same
 command again to continue: finished cases are recognised by the content of scan, options and program. OUTDIR
-gets a folder sub-<id>/ per case, cases.csv, labels.csv, and index.html, which opens offline.
+gets a folder sub-<id>/ per case, cases.csv, labels.csv, columns.json, and index.html, which opens offline.
 
 With --roots each case is one of 'voxelcore roots': a season of plants. labels.csv then holds their traits
 (plant_...), and plants that stand out are marked.
