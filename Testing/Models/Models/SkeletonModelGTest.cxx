@@ -105,6 +105,48 @@ TEST(SkeletonModel, AVtpIsReadAsItWasWritten)
   }
 }
 
+// Before, the array Radius was that of the balls, beside SectionRadius.
+TEST(SkeletonModel, RadiiOfOlderFilesAreTakenAsTheyWereMeant)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model = Mixed();
+  for (SkeletonPart & part : model.parts)
+  {
+    part.graph.sectionRadius = part.graph.radius;
+    for (double & radius : part.graph.sectionRadius)
+    {
+      radius += 0.25;
+    }
+  }
+  WriteSkeletonVtp(folder / "new.vtp", model);
+  std::string bytes = ReadAll(folder / "new.vtp");
+  const auto  rename = [&bytes](const std::string & from, const std::string & to) {
+    const std::size_t at = bytes.find("Name=\"" + from + "\"");
+    ASSERT_NE(at, std::string::npos) << from;
+    bytes.replace(at, from.size() + 7, "Name=\"" + to + "\"");
+  };
+  rename("Radius", "SectionRadius");
+  rename("BallRadius", "Radius");
+  WriteAll(folder / "old.vtp", bytes);
+  for (const char * name : { "new.vtp", "old.vtp" })
+  {
+    const SkeletonModel read = ReadSkeletonVtp(folder / name);
+    ASSERT_EQ(read.parts.size(), model.parts.size()) << name;
+    for (std::size_t p = 0; p < read.parts.size(); ++p)
+    {
+      EXPECT_EQ(read.parts[p].graph.radius, model.parts[p].graph.radius) << name;
+      EXPECT_EQ(read.parts[p].graph.sectionRadius, model.parts[p].graph.sectionRadius) << name;
+    }
+    EXPECT_TRUE(ReadSkeletonIfAny(folder / name).has_value());
+  }
+  WriteAll(folder / "none.vtp", "no file of VTK");
+  EXPECT_FALSE(ReadSkeletonIfAny(folder / "none.vtp").has_value());
+  rename("SectionRadius", "Other");
+  rename("Radius", "Another");
+  WriteAll(folder / "bad.vtp", bytes);
+  EXPECT_THROW(ReadSkeletonIfAny(folder / "bad.vtp"), InputError) << "it is a skeleton, and damaged";
+}
+
 TEST(SkeletonModel, DamagedFilesAreRefused)
 {
   const TemporaryFolder folder;
