@@ -178,7 +178,7 @@ TEST(WriteLabelVolume, AFullDiskIsSaidInOneLineAndLeavesNothing)
   rlimit     before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit small{ 16384, before.rlim_max };
-  for (const char * name : { "a.nrrd", "a.nii", "a.nii.gz", "a.mha", "a.mhd", "a.tif" })
+  for (const char * name : { "a.nrrd", "a.nii", "a.nii.gz", "a.mha", "a.mhd", "a.tif", "a.ome.zarr" })
   {
     for (const bool compress : { true, false })
     {
