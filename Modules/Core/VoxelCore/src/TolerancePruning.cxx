@@ -231,7 +231,7 @@ double
 GreatestTolerance(const MedialComplex & core)
 {
   const auto & values = core.tolerances.vertices;
-  return values.empty() ? 0 : *std::ranges::max_element(values);
+  return values.empty() ? 0 : *ranges::max_element(values);
 }
 
 void
@@ -239,7 +239,7 @@ RaiseTolerances(ToleranceValues & values, double height)
 {
   for (auto * one : { &values.vertices, &values.edges, &values.faces })
   {
-    std::ranges::transform(*one, one->begin(), [&](double value) { return std::max(value, height); });
+    std::transform(one->begin(), one->end(), one->begin(), [&](double value) { return std::max(value, height); });
   }
 }
 

@@ -116,7 +116,7 @@ MadeAgain::Check(const ModelPart &        part,
   {
     for (auto * values : { &core.tolerances.vertices, &core.tolerances.edges, &core.tolerances.faces })
     {
-      std::ranges::replace(*values, own, never);
+      std::replace(values->begin(), values->end(), own, never);
     }
   }
   for (std::size_t edge = 0; edge < core.edgeLambda.size() && edge < part.core.edgeLambda.size(); ++edge)

@@ -1,6 +1,7 @@
 #include "voxelcore/Report/ReportTable.h"
 
 #include "voxelcore/Base/LengthUnit.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Models/SkeletonModel.h"
 #include "voxelcore/Models/TableColumns.h"
@@ -110,8 +111,8 @@ ReportTable(const CoreReport & report)
     }
     return gap;
   });
-  const bool               hasGaps = std::ranges::any_of(report.labels, [](const LabelRecord & label) {
-    return std::ranges::any_of(label.pruned, [](const PrunedRecord & pruned) {
+  const bool               hasGaps = ranges::any_of(report.labels, [](const LabelRecord & label) {
+    return ranges::any_of(label.pruned, [](const PrunedRecord & pruned) {
       return pruned.tolerance && pruned.tolerance->boundaryGapMm;
     });
   });

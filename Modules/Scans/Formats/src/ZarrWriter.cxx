@@ -2,6 +2,7 @@
 // Zarr 3 (0.5), whose key encoding "v2" gives chunks the same names. https://ngff.openmicroscopy.org
 
 #include "PackedFile.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/VolumeWriters.h"
 
@@ -175,7 +176,7 @@ WriteLayer(const std::filesystem::path &       folder,
   {
     for (std::int64_t i = 0; i < size[0]; i += chunk[0])
     {
-      std::ranges::fill(values, std::byte{ 0 });
+      ranges::fill(values, std::byte{ 0 });
       const auto row = static_cast<std::size_t>(std::min(chunk[0], size[0] - i) * bytes);
       for (std::int64_t k = 0; k < count; ++k)
       {
@@ -186,7 +187,7 @@ WriteLayer(const std::filesystem::path &       folder,
                       row);
         }
       }
-      if (std::ranges::all_of(values, [](std::byte one) { return one == std::byte{ 0 }; }))
+      if (ranges::all_of(values, [](std::byte one) { return one == std::byte{ 0 }; }))
       {
         continue;
       }

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/JsonText.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/OutputFile.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Report/CsvText.h"
@@ -29,7 +30,7 @@ bool
 IsWord(std::string_view text)
 {
   return !text.empty() &&
-         std::ranges::all_of(text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
+         ranges::all_of(text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
 }
 
 /** "acq-hr" is a key and a label, both of letters and digits. */
@@ -110,7 +111,7 @@ TsvOf(const fs::path & table, std::vector<std::string> & names)
   {
     for (std::size_t i = 0; i < row.fields.size(); ++i)
     {
-      std::ranges::replace_if(
+      ranges::replace_if(
         row.fields[i],
         [](char c) { return c == '\t' || c == '\n' || c == '\r'; },
         ' ');
@@ -288,7 +289,7 @@ BidsPlaceOf(const std::string & scan, const std::string & caseFolder)
   place.entities += hasDesc ? "" : "_desc-voxelcore";
   place.folder += session.empty() ? "" : "/" + session;
   const std::string datatype = path.parent_path().filename().string();
-  place.folder += "/" + (std::ranges::find(datatypes, datatype) != datatypes.end() ? datatype : "anat");
+  place.folder += "/" + (ranges::find(datatypes, datatype) != datatypes.end() ? datatype : "anat");
   return place;
 }
 

@@ -2,6 +2,8 @@
 
 #include "RowBits.h"
 
+#include "voxelcore/Base/Library.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -46,11 +48,13 @@ Cut(const Polygon & whole, std::size_t axis, double at, bool above, Polygon & pa
 std::pair<std::int32_t, std::int32_t>
 Reach(const Polygon & polygon, std::size_t axis, std::int32_t size)
 {
-  const auto [low, high] = std::ranges::minmax(polygon, {}, [axis](const Vector3 & point) { return point[axis]; });
+  const auto   along = [axis](const Vector3 & point) { return point[axis]; };
+  const double low = along(*ranges::min_element(polygon, {}, along));
+  const double high = along(*ranges::max_element(polygon, {}, along));
   const auto within = [size](double index) {
     return static_cast<std::int32_t>(std::clamp(std::floor(index), 0.0, static_cast<double>(size - 1)));
   };
-  return { within(low[axis] + 0.5 - kClose), within(high[axis] + 0.5 + kClose) };
+  return { within(low + 0.5 - kClose), within(high + 0.5 + kClose) };
 }
 
 /** Between the faces of the voxels with this index. */

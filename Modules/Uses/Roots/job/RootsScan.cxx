@@ -176,7 +176,7 @@ LookAtScan(CoreOptions & core, bool asIs, std::vector<std::string> & notes)
     const auto hasHollows = [](const EditedLabel & one) {
       return one.edits && one.edits->hollows && one.edits->hollows->voxelsAdded > 0;
     };
-    if (std::ranges::any_of(mask.scan.edited.labels, hasHollows))
+    if (ranges::any_of(mask.scan.edited.labels, hasHollows))
     {
       notes.push_back("hollows are filled where they open through holes up to " + core.edits.fillHollows->text +
                       " wide; for another width give --fill-hollows");
