@@ -308,20 +308,20 @@ MeasureCurves(const BurnedCurves &    burned,
   const VoxelReach reach = HalfAVoxel(shape.geometry);
   const OpenShape  inside(voxels, shape.geometry);
   const auto fit = [&] {
-    // Past domes first, as smoothing draws their feet into them.
-    if (BranchIntoDomes(graph, inside, StandOutOn(shape, request)) > 0 && window > 0)
+    const std::size_t domes = BranchIntoDomes(graph, inside, StandOutOn(shape, request));
+    if (domes > 0 && window > 0)
     {
-      StraightenPastDomes(graph, inside);
+      StraightenPastDomes(graph, inside); // first, as smoothing draws their feet into them
     }
     FitBranches(graph, window, reach, inside);
+    return domes;
   };
-  fit();
   const BranchRequest & branches = request.branches;
-  const double          limit = branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0;
-  if (PruneBranches(graph, { limit, branches.pruneRadii }) > 0)
-  {
-    fit(); // a line may have run into a dome and back past a twig
-  }
+  const BranchLimit     limit{ branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0, branches.pruneRadii };
+  fit();
+  // Past a twig that goes, a line may run into a dome and back.
+  while (PruneBranches(graph, limit) > 0 && fit() > 0)
+  {}
   if (window > 0 && StraightenPastDomes(graph, inside) > 0)
   {
     FitBranches(graph, window, reach, inside);
