@@ -37,7 +37,7 @@ may_use() {
     Report) echo "$core Labels Masks Formats Imaging Models" ;;
     Jobs) echo "$core Labels Masks Formats ItkReader Imaging Models Display Report" ;;
     Options) echo "$core Labels Masks Formats Imaging Models Report Jobs" ;;
-    Blocks | Meshes | Phantom | Thickness | Sheets | Vessels | Roots | Cohort)
+    Blocks | Meshes | Phantom | Thickness | Sheets | Vessels | Roots | Compare | Cohort)
       if [ "$2" = src ] && [ "$1" != Cohort ]; then
         echo "$core"
       else
