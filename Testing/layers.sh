@@ -57,7 +57,8 @@ Report Vessels      | the report's struct has lesions as a member
 Jobs Vessels        | core and skeleton write sections, branches, centerlines and flow of what they have made
 Jobs Blocks         | core makes blocks and joins them; core --join takes their cells in place of its own
 Jobs Meshes         | a mesh may stand wherever a scan may
-Options Meshes      | the table of options fills the requests of all streets
+Options Compare     | the table of options fills the requests of all streets
+Options Meshes      | the same
 Options Phantom     | the same
 Options Roots       | the same
 Options Sheets      | the same

@@ -226,6 +226,18 @@ RunStraighten(const Run & run)
 }
 
 int
+RunCompare(const Run & run)
+{
+  CompareOptions options = CompareOptionsFrom(run.line.values);
+  options.command = run.line.whole;
+  const CompareResult result = RunCompareJob(options, run.context);
+  run.Warn(result.warnings);
+  run.Print(CompareText(result));
+  run.PrintNotes(result.notes);
+  return kDone;
+}
+
+int
 RunRender(const Run & run)
 {
   const RenderResult result = RunRenderJob(RenderOptionsFrom(run.line.values), run.context);
@@ -267,6 +279,8 @@ RunCommand(const Run & run)
       return RunSheets(run);
     case CommandId::Straighten:
       return RunStraighten(run);
+    case CommandId::Compare:
+      return RunCompare(run);
     case CommandId::Render:
       return RunRender(run);
     case CommandId::Measure:

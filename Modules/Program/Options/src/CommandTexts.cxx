@@ -248,7 +248,23 @@ Examples:
   voxelcore straighten chest.nii.gz aorta.vtp --branch 0 -o straight.nrrd --table straight.csv
   voxelcore straighten chest.nii.gz aorta.vtp --from 5,16,16 --to 27,16,16 --spacing 0.5 -o straight.nrrd)";
 
-constexpr std::array<Command, 15> kCommands{ {
+constexpr std::string_view kCompareFooter =
+  R"(A is the reference. Two masks on one grid get, label by label, Dice, distances of their surfaces, topology numbers
+(6- and 26-connected) with their differences, clDice of their certified skeletons, and the pieces, loops and cavities
+that differ, with places. Where only their boxes differ, what both hold is compared.
+
+Two skeletons get branches and length detected, leakage, tips and bifurcations found, missed and invented, and
+distances of axes and radii. A place is found where the other axis passes within A's radius there; a branch where one
+connected run of the other follows 80 % of it. A mask is compared with a skeleton by its own skeleton. Two medial
+surfaces get distances and coverage. Guide: compare.md
+
+Examples:
+  voxelcore compare truth.nii.gz network.nii.gz --table compared.csv
+  voxelcore compare truth.seg.nrrd network.nii.gz --labels airway,2 --report compared.json
+  voxelcore compare traced.swc skeleton.vtp -o found.vtp --table compared.csv
+  voxelcore compare medial.vtp pruned.vtp --within 0.5mm)";
+
+constexpr std::array<Command, 16> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },
   { CommandId::Skeleton, "skeleton", "Compute the curve skeleton of a scan or of a medial surface", kSkeletonFooter },
   { CommandId::Roots, "roots", "Find the roots of a plant in a CT or MRI scan, and measure them", kRootsFooter },
@@ -259,6 +275,7 @@ constexpr std::array<Command, 15> kCommands{ {
   { CommandId::Render, "render", "Draw pictures of medial surfaces and skeletons", kRenderFooter },
   { CommandId::Measure, "measure", "Write tables of a skeleton's branches", kMeasureFooter },
   { CommandId::Straighten, "straighten", "Resample a scan along a vessel of its skeleton", kStraightenFooter },
+  { CommandId::Compare, "compare", "Compare two masks, skeletons or medial surfaces", kCompareFooter },
   { CommandId::Prune, "prune", "Prune a medial surface further, without its scan", kPruneFooter },
   { CommandId::Batch,
     "batch",

@@ -1,5 +1,6 @@
 #include "ParameterReader.h"
 #include "table/CohortRows.h"
+#include "table/CompareRows.h"
 #include "table/InputRows.h"
 #include "table/OutputRows.h"
 #include "table/PhantomRows.h"
@@ -58,6 +59,7 @@ constexpr auto kParameters = JoinedRows(Rows{ ParameterGroup::Input, table::kInp
                                         Rows{ ParameterGroup::Refinement, table::kRefinementRows },
                                         Rows{ ParameterGroup::Skeleton, table::kSkeletonRows },
                                         Rows{ ParameterGroup::Straightening, table::kStraightenRows },
+                                        Rows{ ParameterGroup::Comparison, table::kCompareRows },
                                         Rows{ ParameterGroup::Running, table::kRunningRows });
 
 } // namespace
@@ -91,6 +93,8 @@ GroupHeading(ParameterGroup group)
       return "Thickness and sheets";
     case ParameterGroup::Straightening:
       return "Straightening";
+    case ParameterGroup::Comparison:
+      return "Comparison";
     case ParameterGroup::Running:
       break;
   }

@@ -23,17 +23,18 @@ constexpr std::uint32_t kRoots = static_cast<std::uint32_t>(CommandId::Roots);
 constexpr std::uint32_t kThickness = static_cast<std::uint32_t>(CommandId::Thickness);
 constexpr std::uint32_t kSheets = static_cast<std::uint32_t>(CommandId::Sheets);
 constexpr std::uint32_t kStraighten = static_cast<std::uint32_t>(CommandId::Straighten);
+constexpr std::uint32_t kCompare = static_cast<std::uint32_t>(CommandId::Compare);
 constexpr std::uint32_t kMaps = kThickness | kSheets;
 /** Those that join pieces that touch by default (Testing/Performance/Defaults.md says why); `core` keeps the shape of
  *  the paper. */
 constexpr std::uint32_t kJoins = kSkeleton | kMaps;
 constexpr std::uint32_t kReads = kCore | kInfo | kSkeleton | kRoots | kThickness | kSheets;
-constexpr std::uint32_t kReadsValues = kReads | kStraighten;
+constexpr std::uint32_t kReadsValues = kReads | kStraighten | kCompare;
 constexpr std::uint32_t kModels = kCore | kPrune;
 constexpr std::uint32_t kStages = kCore | kSkeleton;
 constexpr std::uint32_t kBranches = kSkeleton | kMeasure;
 constexpr std::uint32_t kWrites =
-  kModels | kPhantom | kBranches | kRender | kReconstruct | kVoxelize | kRoots | kMaps | kStraighten;
+  kModels | kPhantom | kBranches | kRender | kReconstruct | kVoxelize | kRoots | kMaps | kStraighten | kCompare;
 constexpr std::uint32_t kAll = kWrites | kInfo | kVerify;
 
 } // namespace voxelcore::table

@@ -1,6 +1,7 @@
 #pragma once
 // Every option of the program in one table: the parser, the help and descriptions for other programs come from it.
 
+#include "voxelcore/Compare/CompareJob.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/Jobs/BlockJob.h"
 #include "voxelcore/Jobs/CoreJob.h"
@@ -45,7 +46,8 @@ enum class CommandId : std::uint32_t
   Roots = 2048,
   Thickness = 4096,
   Sheets = 8192,
-  Straighten = 16384
+  Straighten = 16384,
+  Compare = 32768
 };
 
 struct Command
@@ -83,6 +85,7 @@ enum class ParameterGroup
   Refinement,
   Skeleton,
   Straightening,
+  Comparison,
   Running
 };
 
@@ -200,6 +203,11 @@ SheetsOptions
 SheetsOptionsFrom(const ParameterValues & values);
 StraightenOptions
 StraightenOptionsFrom(const ParameterValues & values);
+/** No path is read, and none need be there. */
+CompareOptions
+CompareOptionsWithoutFiles(const ParameterValues & values);
+CompareOptions
+CompareOptionsFrom(const ParameterValues & values);
 RenderJobOptions
 RenderOptionsFrom(const ParameterValues & values);
 

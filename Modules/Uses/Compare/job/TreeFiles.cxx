@@ -1,0 +1,421 @@
+#include "voxelcore/Compare/TreeFiles.h"
+
+#include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/ParseReal.h"
+#include "voxelcore/Lattice/Vectors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <expat.h>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+
+namespace voxelcore
+{
+
+namespace
+{
+
+constexpr std::size_t kMostPoints = std::size_t{ 1 } << 30; ///< numbers of points have 32 bits
+
+std::string
+ReadText(const std::filesystem::path & path)
+{
+  std::ifstream     file(path, std::ios::binary);
+  const std::string text{ std::istreambuf_iterator<char>(file), {} };
+  if (!file)
+  {
+    throw InputError(path.string() + ": cannot read this file; check its name and permissions");
+  }
+  return text;
+}
+
+/** Points and the lines between two of them. */
+struct Edges
+{
+  std::vector<Vector3>                     positions;
+  std::vector<double>                      radius;
+  std::vector<std::array<ElementIndex, 2>> edges;
+};
+
+/** Branches from points where not just two edges meet, then closed curves. */
+SkeletonGraph
+GraphOfEdges(Edges given)
+{
+  std::vector<std::vector<std::size_t>> at(given.positions.size());
+  for (std::size_t edge = 0; edge < given.edges.size(); ++edge)
+  {
+    at[given.edges[edge][0]].push_back(edge);
+    at[given.edges[edge][1]].push_back(edge);
+  }
+  std::vector<std::vector<ElementIndex>> lines;
+  std::vector<std::uint8_t>              isTaken(given.edges.size(), 0);
+  const auto                             follow = [&](ElementIndex from, std::size_t edge) {
+    std::vector<ElementIndex> line{ from };
+    while (isTaken[edge] == 0)
+    {
+      isTaken[edge] = 1;
+      const auto [one, two] = given.edges[edge];
+      line.push_back(one == line.back() ? two : one);
+      const auto & next = at[line.back()];
+      if (next.size() != 2)
+      {
+        break;
+      }
+      edge = next[0] == edge ? next[1] : next[0];
+    }
+    lines.push_back(std::move(line));
+  };
+  for (const bool closed : { false, true })
+  {
+    for (ElementIndex point = 0; point < at.size(); ++point)
+    {
+      for (const std::size_t edge : at[point])
+      {
+        if (isTaken[edge] == 0 && (closed || at[point].size() != 2))
+        {
+          follow(point, edge);
+        }
+      }
+    }
+  }
+  SkeletonGraph graph;
+  graph.positions = std::move(given.positions);
+  graph.erosionThickness.assign(graph.positions.size(), 0);
+  graph.radius = std::move(given.radius);
+  SortBranches(graph, lines, false);
+  return graph;
+}
+
+// ---- SWC
+
+SkeletonModel
+ReadSwc(const std::filesystem::path & path)
+{
+  const auto unfit = [&](std::size_t number, const std::string & what) {
+    return InputError(path.string() + ", line " + std::to_string(number) + ": " + what);
+  };
+  std::istringstream                   text(ReadText(path));
+  Edges                                edges;
+  SkeletonModel                        model;
+  double                               scale = 1e-3; // micrometres
+  std::map<std::int64_t, ElementIndex> known;
+  std::string                          line;
+  for (std::size_t number = 1; std::getline(text, line); ++number)
+  {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string::npos)
+    {
+      continue;
+    }
+    if (line[begin] == '#')
+    {
+      if (edges.positions.empty() && line.starts_with("# voxels, LPS axes"))
+      {
+        model.unit = SpatialUnit::Voxels;
+        scale = 1;
+      }
+      continue;
+    }
+    std::istringstream    words(line);
+    std::array<double, 7> values{};
+    std::string           word;
+    for (double & value : values)
+    {
+      const auto read = words >> word ? ParseReal(word) : std::nullopt;
+      if (!read || !std::isfinite(*read) || std::abs(*read) > 1e15)
+      {
+        throw unfit(number, "expected seven numbers: id, type, x, y, z, radius, parent");
+      }
+      value = *read;
+    }
+    const auto id = static_cast<std::int64_t>(values[0]);
+    const auto parent = static_cast<std::int64_t>(values[6]);
+    const auto point = static_cast<ElementIndex>(edges.positions.size());
+    if (values[5] < 0 || point >= kMostPoints || !known.emplace(id, point).second)
+    {
+      throw unfit(number, values[5] < 0 ? "a radius is below 0" : "its id was given already");
+    }
+    edges.positions.push_back({ scale * values[2], scale * values[3], scale * values[4] });
+    edges.radius.push_back(scale * values[5]);
+    if (parent >= 0)
+    {
+      const auto found = known.find(parent);
+      if (found == known.end() || found->second == point)
+      {
+        throw unfit(number, "its parent must come before it");
+      }
+      edges.edges.push_back({ found->second, point });
+    }
+  }
+  if (edges.positions.empty())
+  {
+    throw InputError(path.string() + ": holds no point of a tree");
+  }
+  model.parts.emplace_back();
+  model.parts[0].graph = GraphOfEdges(std::move(edges));
+  return model;
+}
+
+// ---- RSML
+
+struct Root
+{
+  std::vector<Vector3> points;
+  std::vector<double>  diameters;
+  std::size_t          parent = std::numeric_limits<std::size_t>::max();
+};
+
+/** Walks through the tags, as expat calls. No exception may pass through expat: what is wrong is kept. */
+class RsmlWalk
+{
+public:
+  explicit RsmlWalk(const std::string & text)
+    : m_Parser(XML_ParserCreate(nullptr), &XML_ParserFree)
+  {
+    XML_SetUserData(m_Parser.get(), this);
+    XML_SetElementHandler(m_Parser.get(), &RsmlWalk::OnBegin, &RsmlWalk::OnEnd);
+    XML_SetCharacterDataHandler(m_Parser.get(), &RsmlWalk::OnText);
+    XML_SetStartDoctypeDeclHandler(m_Parser.get(), &RsmlWalk::OnDoctype);
+    constexpr std::size_t step = 1 << 20;
+    for (std::size_t at = 0; at <= text.size() && wrong.empty(); at += step)
+    {
+      const std::size_t size = std::min(step, text.size() - at);
+      const bool        isLast = at + step > text.size();
+      if (XML_Parse(m_Parser.get(), text.data() + at, static_cast<int>(size), isLast ? 1 : 0) != XML_STATUS_OK &&
+          wrong.empty())
+      {
+        wrong = "line " + std::to_string(XML_GetCurrentLineNumber(m_Parser.get())) + ": " +
+                XML_ErrorString(XML_GetErrorCode(m_Parser.get()));
+      }
+    }
+  }
+
+  std::vector<Root> roots;
+  std::string       unit;
+  std::string       resolution;
+  std::string       wrong;
+
+private:
+  static void
+  OnDoctype(void * self, const XML_Char *, const XML_Char *, const XML_Char *, int)
+  {
+    static_cast<RsmlWalk *>(self)->Refuse("it has a document type");
+  }
+  static void
+  OnBegin(void * self, const XML_Char * name, const XML_Char ** attributes)
+  {
+    static_cast<RsmlWalk *>(self)->Begin(name, attributes);
+  }
+  static void
+  OnEnd(void * self, const XML_Char *)
+  {
+    static_cast<RsmlWalk *>(self)->End();
+  }
+  static void
+  OnText(void * self, const XML_Char * text, int length)
+  {
+    static_cast<RsmlWalk *>(self)->m_Text.append(text, static_cast<std::size_t>(length));
+  }
+
+  void
+  Refuse(const std::string & what)
+  {
+    wrong = wrong.empty() ? what : wrong;
+    XML_StopParser(m_Parser.get(), XML_FALSE);
+  }
+
+  void
+  Begin(const std::string & name, const XML_Char ** attributes)
+  {
+    const auto value = [&](const char * wanted) -> std::optional<std::string> {
+      for (const XML_Char ** at = attributes; *at != nullptr; at += 2)
+      {
+        if (std::string(at[0]) == wanted)
+        {
+          return std::string(at[1]);
+        }
+      }
+      return std::nullopt;
+    };
+    const std::string above = m_Path.empty() ? std::string() : m_Path.back();
+    m_Path.push_back(name);
+    m_Text.clear();
+    if (name == "root")
+    {
+      roots.emplace_back();
+      if (!m_Open.empty())
+      {
+        roots.back().parent = m_Open.back();
+      }
+      m_Open.push_back(roots.size() - 1);
+    }
+    else if (name == "function")
+    {
+      m_IsDiameter = value("name") == "diameter";
+    }
+    else if (name == "point" && above == "polyline" && !m_Open.empty())
+    {
+      Vector3 place{};
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const auto text = value(k == 0 ? "x" : k == 1 ? "y" : "z");
+        const auto number = text ? ParseReal(*text) : k == 2 ? std::optional(0.0) : std::nullopt;
+        if (!number || !std::isfinite(*number))
+        {
+          Refuse("a point of a polyline has no x, y or z that is a number");
+          return;
+        }
+        place[k] = *number;
+      }
+      roots[m_Open.back()].points.push_back(place);
+    }
+    m_Value = value("value");
+  }
+
+  void
+  End()
+  {
+    const std::string name = m_Path.back();
+    m_Path.pop_back();
+    const std::string above = m_Path.empty() ? std::string() : m_Path.back();
+    if (name == "root")
+    {
+      m_Open.pop_back();
+    }
+    else if (name == "sample" && m_IsDiameter && !m_Open.empty())
+    {
+      const auto number = ParseReal(m_Value.value_or(m_Text));
+      if (!number || !(*number >= 0) || !std::isfinite(*number))
+      {
+        Refuse("a diameter is no number from 0 on");
+        return;
+      }
+      roots[m_Open.back()].diameters.push_back(*number);
+    }
+    else if (above == "metadata" && (name == "unit" || name == "resolution"))
+    {
+      (name == "unit" ? unit : resolution) = m_Text;
+    }
+  }
+
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> m_Parser;
+  std::vector<std::string>                                     m_Path;
+  std::vector<std::size_t>                                     m_Open; ///< roots within each other
+  std::string                                                  m_Text;
+  std::optional<std::string>                                   m_Value;
+  bool                                                         m_IsDiameter = false;
+};
+
+SkeletonModel
+ReadRsml(const std::filesystem::path & path)
+{
+  const RsmlWalk walk(ReadText(path));
+  const auto     refuse = [&](const std::string & what) { throw InputError(path.string() + ": " + what); };
+  if (!walk.wrong.empty())
+  {
+    refuse(walk.wrong);
+  }
+  static const std::map<std::string, double> scales{ { "mm", 1 },
+                                                     { "cm", 10 },
+                                                     { "m", 1000 },
+                                                     { "um", 1e-3 },
+                                                     { "pixel", 1 } };
+  const auto                                 scale = scales.find(walk.unit);
+  if (scale == scales.end() || !(walk.resolution.empty() || ParseReal(walk.resolution) == 1.0))
+  {
+    refuse("its unit is '" + walk.unit + "' with the resolution '" + walk.resolution +
+           "'; expected mm, cm, m, um or pixel with the resolution 1");
+  }
+  SkeletonModel model;
+  model.unit = walk.unit == "pixel" ? SpatialUnit::Voxels : SpatialUnit::Millimetres;
+  Edges                                  edges;
+  std::vector<std::vector<ElementIndex>> pointsOf(walk.roots.size());
+  for (std::size_t number = 0; number < walk.roots.size(); ++number)
+  {
+    const Root & root = walk.roots[number];
+    if (!root.diameters.empty() && root.diameters.size() != root.points.size())
+    {
+      refuse("a root has another number of diameters than of points");
+    }
+    std::vector<ElementIndex> & points = pointsOf[number];
+    for (std::size_t i = 0; i < root.points.size(); ++i)
+    {
+      const Vector3 place{ scale->second * root.points[i][0],
+                           scale->second * root.points[i][1],
+                           scale->second * root.points[i][2] };
+      ElementIndex  before = i > 0 ? points.back() : kNoBranch;
+      if (i == 0 && root.parent < number && !pointsOf[root.parent].empty())
+      {
+        before = *std::ranges::min_element(pointsOf[root.parent], {}, [&](ElementIndex point) {
+          return Distance(edges.positions[point], place);
+        });
+        if (edges.positions[before] == place)
+        {
+          points.push_back(before);
+          continue;
+        }
+      }
+      points.push_back(static_cast<ElementIndex>(edges.positions.size()));
+      edges.positions.push_back(place);
+      edges.radius.push_back(root.diameters.empty() ? 0 : scale->second * root.diameters[i] / 2);
+      if (before != kNoBranch)
+      {
+        edges.edges.push_back({ before, points.back() });
+      }
+    }
+  }
+  if (edges.positions.empty())
+  {
+    refuse("holds no root with points");
+  }
+  model.parts.emplace_back();
+  model.parts[0].graph = GraphOfEdges(std::move(edges));
+  return model;
+}
+
+} // namespace
+
+bool
+IsTreePath(const std::filesystem::path & path)
+{
+  return path.extension() == ".swc" || path.extension() == ".rsml";
+}
+
+SkeletonModel
+ReadTreeFile(const std::filesystem::path & path)
+{
+  SkeletonModel model = path.extension() == ".swc" ? ReadSwc(path) : ReadRsml(path);
+  model.parts[0].label = 1;
+  model.parts[0].name = path.stem().string();
+  return model;
+}
+
+SkeletonGraph
+MergedGraph(const SkeletonModel & model)
+{
+  Edges all;
+  for (const SkeletonPart & part : model.parts)
+  {
+    const SkeletonGraph & graph = part.graph;
+    const auto            first = static_cast<ElementIndex>(all.positions.size());
+    all.positions.insert(all.positions.end(), graph.positions.begin(), graph.positions.end());
+    const auto & radii = SectionRadii(graph);
+    all.radius.insert(all.radius.end(), radii.begin(), radii.end());
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    {
+      const auto points = graph.Branch(branch);
+      for (std::size_t i = 1; i < points.size(); ++i)
+      {
+        all.edges.push_back({ first + points[i - 1], first + points[i] });
+      }
+    }
+  }
+  return GraphOfEdges(std::move(all));
+}
+
+} // namespace voxelcore
