@@ -189,8 +189,8 @@ ExpectBruteForce(const RandomVolume & volume, Random & random)
 
   const TopologyComparison open = CompareTopology6(a, b);
   const TopologyComparison closed = CompareTopology26(a, b);
-  const TopologyNumbers bruteA = BruteTopology(a);
-  const TopologyNumbers bruteB = BruteTopology(b);
+  const TopologyNumbers    bruteA = BruteTopology(a);
+  const TopologyNumbers    bruteB = BruteTopology(b);
   EXPECT_EQ(open.a, bruteA);
   EXPECT_EQ(open.b, bruteB);
   EXPECT_EQ(closed.a, BruteClosedTopology(a));

@@ -221,6 +221,10 @@ CompareMasks(CompareSide              a,
              CompareResult &          result,
              const ProgressCallback & progress)
 {
+  if (options.within)
+  {
+    throw UsageError("--within is for skeletons and medial surfaces; masks are compared voxel by voxel");
+  }
   BringTogether(a, b, result.notes);
   const auto &               mapA = std::get<LabelMap>(a.content);
   const auto &               mapB = std::get<LabelMap>(b.content);

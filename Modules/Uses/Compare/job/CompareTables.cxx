@@ -485,38 +485,38 @@ std::string
 CompareTablesText(const std::vector<CompareTable> & tables)
 {
   // Those that are in the table are shown.
-  constexpr auto                        shown = std::to_array<const char *>({ "label",
-                                                                              "name",
-                                                                              "dice",
-                                                                              "jaccard",
-                                                                              "cl_dice",
-                                                                              "tree_length_detected",
-                                                                              "branches_detected",
-                                                                              "leakage_ratio",
-                                                                              "tips_found",
-                                                                              "tips_missed",
-                                                                              "tips_invented",
-                                                                              "axis_distance",
-                                                                              "hausdorff_95",
-                                                                              "hausdorff",
-                                                                              "mean_distance",
-                                                                              "coverage_a",
-                                                                              "coverage_b",
-                                                                              "b0_error_26",
-                                                                              "b1_error_26",
-                                                                              "b2_error_26" });
+  constexpr std::pair<const char *, const char *> shown[] = {
+    { "label", "label" },
+    { "name", "name" },
+    { "dice", "Dice" },
+    { "jaccard", "Jaccard" },
+    { "hausdorff", "Hausdorff" },
+    { "hausdorff_95", "95 %" },
+    { "mean_distance", "mean" },
+    { "coverage_a", "A covered" },
+    { "coverage_b", "B covered" },
+    { "cl_dice", "clDice" },
+    { "tree_length_detected", "length found" },
+    { "branches_detected", "branches found" },
+    { "leakage_ratio", "leakage" },
+    { "tips_found", "tips found" },
+    { "tips_missed", "missed" },
+    { "tips_invented", "invented" },
+    { "axis_distance", "axes apart" },
+    { "b0_error_26", "b0 error" },
+    { "b1_error_26", "b1 error" },
+    { "b2_error_26", "b2 error" },
+  };
   const CompareTable &                  main = tables.front();
   std::vector<std::vector<std::string>> rows(main.rows.size() + 1);
-  for (const char * name : shown)
+  for (const auto & [name, head] : shown)
   {
     const auto found = std::ranges::find(main.columns, name, &CompareColumn::name);
     if (found == main.columns.end())
     {
       continue;
     }
-    std::string head = name;
-    std::ranges::replace(head, '_', ' ');
-    rows[0].push_back(head + (found->unit.empty() || found->unit == "1" ? "" : " " + found->unit));
+    rows[0].push_back(std::string(head) + (found->unit.empty() || found->unit == "1" ? "" : " " + found->unit));
     for (std::size_t row = 0; row < main.rows.size(); ++row)
     {
       rows[row + 1].push_back(CellText(main.rows[row][static_cast<std::size_t>(found - main.columns.begin())]));
