@@ -128,6 +128,25 @@ GreyRowsOf(const ArrayView & array)
   };
 }
 
+/** \throws InputError in Python's words for a grey scan */
+std::vector<LabelShape>
+LabelsOfArray(const ArrayView &        array,
+              const ImageGeometry &    geometry,
+              const ReadOptions &      reading,
+              const ProgressCallback & progress)
+{
+  try
+  {
+    return LabelsOf(array, geometry, reading, progress);
+  }
+  catch (const GreyScanError & error)
+  {
+    const std::string range = ProposedRange(error.grey);
+    throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
+                     range.substr(0, range.find(':')) + ", numpy.inf), or give label= if its values are labels");
+  }
+}
+
 /** What is read of an array. */
 struct ReadArray
 {
@@ -163,16 +182,7 @@ Read(const ArrayView &        array,
   constexpr double readEnds = 0.05;
   InputScan        map;
   map.geometry = report.input.geometry;
-  try
-  {
-    map.labels = LabelsOf(array, map.geometry, options.reading, PartOfProgress(progress, "reading", 0, readEnds));
-  }
-  catch (const GreyScanError & error)
-  {
-    const std::string range = ProposedRange(error.grey);
-    throw InputError("the array: " + GreyScanText(error.grey) + "; choose a range, for example threshold=(" +
-                     range.substr(0, range.find(':')) + ", numpy.inf), or give label= if its values are labels");
-  }
+  map.labels = LabelsOfArray(array, map.geometry, options.reading, PartOfProgress(progress, "reading", 0, readEnds));
   if (options.reading.crop)
   {
     map.crop = ResolveCrop(options.reading.crop, map.geometry.size, "the array");
@@ -217,6 +227,18 @@ ModelOf(const CoreOfLabel & core)
   model.hasEdges = core.hasEdges;
   model.refined = core.refined;
   return model;
+}
+
+CompareSide
+SideOfArray(const ArrayView &        array,
+            const ImageGeometry &    geometry,
+            const CompareOptions &   options,
+            const ProgressCallback & progress)
+{
+  LabelMap map;
+  map.geometry = CheckedGeometry("the array", geometry, options.making.reading.orthonormalize);
+  map.labels = LabelsOfArray(array, map.geometry, options.making.reading, progress);
+  return { "the array", std::move(map) };
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>

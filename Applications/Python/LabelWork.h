@@ -60,6 +60,13 @@ MakeThickness(const ArrayView &        array,
               const ParameterValues &  values,
               const ProgressCallback & progress);
 
+/** An array as one side of a comparison. */
+CompareSide
+SideOfArray(const ArrayView &        array,
+            const ImageGeometry &    geometry,
+            const CompareOptions &   options,
+            const ProgressCallback & progress);
+
 /** `values` are options of `voxelcore core` by name. The array must hold one label, unless `values` say which. Of each
  *  label, or component where these are split, a core for each lambda or tolerance, in the order given.
  *  \throws InputError, UsageError, CertificateError, Cancelled */

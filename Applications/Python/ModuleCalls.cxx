@@ -14,6 +14,7 @@
 #include <pybind11/stl.h>
 
 #include <cstring>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -184,6 +185,64 @@ SheetsOfCore(const std::shared_ptr<CoreOfLabel> & core,
   dict["sheets"] = sheets;
   dict["curves"] = curves;
   return dict;
+}
+
+/** One side of a comparison, as it is made in the work's thread: of a path (bytes), a result, or an array with its
+ *  spacing, origin and direction. */
+std::function<CompareSide(const CompareOptions &, const ProgressCallback &)>
+SideOf(const py::tuple & given)
+{
+  const py::object & first = given[0];
+  if (py::isinstance<py::bytes>(first))
+  {
+    return [path = first.cast<std::string>()](const CompareOptions & options, const ProgressCallback & progress) {
+      std::vector<std::string> warnings;
+      return ReadCompareSide(path, options, warnings, progress);
+    };
+  }
+  if (py::isinstance<SkeletonOfLabel>(first))
+  {
+    return [one = first.cast<std::shared_ptr<SkeletonOfLabel>>()](const CompareOptions &, const ProgressCallback &) {
+      SkeletonModel model;
+      model.unit = one->report.input.geometry.unit;
+      model.parts = { one->part };
+      return CompareSide{ "the skeleton", std::move(model) };
+    };
+  }
+  if (py::isinstance<CoreOfLabel>(first))
+  {
+    return [one = first.cast<std::shared_ptr<CoreOfLabel>>()](const CompareOptions &, const ProgressCallback &) {
+      return CompareSide{ "the core", ModelOf(*one) };
+    };
+  }
+  const ArrayView     view = ViewOf(first.cast<py::array>());
+  const ImageGeometry geometry = PlacedGeometry(view,
+                                                given[1].cast<std::optional<std::array<double, 3>>>(),
+                                                given[2].cast<std::array<double, 3>>(),
+                                                given[3].cast<std::array<double, 9>>());
+  return [=](const CompareOptions & options, const ProgressCallback & progress) {
+    return SideOfArray(view, geometry, options, progress);
+  };
+}
+
+/** The tables as JSON. */
+std::string
+CompareBoth(const py::tuple & a, const py::tuple & b, const ParameterValues & values, const py::object & listener)
+{
+  const auto makeA = SideOf(a);
+  const auto makeB = SideOf(b);
+  return RunInOwnThread(
+    ThreadsFrom(values, CommandId::Compare),
+    listener,
+    py::make_tuple(a, b),
+    [=](const ProgressCallback & progress) {
+      const CompareOptions options = CompareOptionsWithoutFiles(values);
+      CompareSide          sideA = makeA(options, PartOfProgress(progress, "reading", 0, 0.1));
+      CompareSide          sideB = makeB(options, PartOfProgress(progress, "reading", 0.1, 0.2));
+      return CompareJson(
+        Compare(std::move(sideA), std::move(sideB), options, PartOfProgress(progress, "comparing", 0.2, 1)),
+        options);
+    });
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>
@@ -392,4 +451,5 @@ voxelcore::DefineCalls(py::module_ & module)
   module.def("label_names", &NamesOfFile);
   module.def("thickness", &ThicknessOfAnArray);
   module.def("sheets", &SheetsOfCore);
+  module.def("compare", &CompareBoth);
 }

@@ -19,6 +19,8 @@ fail() { echo "guide_test.sh: $*" >&2; exit 1; }
 make_inputs() {
   voxelcore phantom torus --size 40,40,24 --spacing 0.5,0.5,1 -o scan.nii.gz -q
   voxelcore phantom torus --size 40,40,24 -o torus.nii -q
+  cp scan.nii.gz truth.nii.gz
+  cp scan.nii.gz network.nii.gz
   tail -c $((40 * 40 * 24)) torus.nii >scan.raw
   rm torus.nii
   voxelcore phantom root --size 40 -o root.nii.gz -q

@@ -49,6 +49,7 @@ FUNCTIONS = {
     "thickness": (voxelcore.thickness, _arguments.OF_THICKNESS),
     "sheets": (voxelcore.sheets, _arguments.OF_CORE, _arguments.OF_SHEETS, voxelcore.core),
     "verify": (voxelcore.verify,),
+    "compare": (voxelcore.compare, _arguments.OF_COMPARE),
 }  # fmt: skip
 TABLE = [row for row in _voxelcore.option_table() if row["command"] in FUNCTIONS]
 PROGRAM = ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet", "soma")

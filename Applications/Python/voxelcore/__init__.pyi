@@ -285,6 +285,17 @@ def sheets(
     progress: _Progress = ...,
     **options: Any,
 ) -> Dict[str, Any]: ...
+def compare(
+    a: Union[Core, Skeleton, ArrayLike, _Image],
+    b: Union[Core, Skeleton, ArrayLike, _Image],
+    *,
+    spacing: Optional[_VoxelSize] = ...,
+    label: Any = ...,
+    axes: Optional[str] = ...,
+    threshold: Optional[Sequence[float]] = ...,
+    progress: _Progress = ...,
+    **options: Any,
+) -> Dict[str, Any]: ...
 def read(path: Union[str, PathLike[str]]) -> Any: ...
 def precomputed(results: Any, folder: Union[str, PathLike[str]], *, overwrite: bool = ...) -> None: ...
 def columns(unit: str = ...) -> Dict[str, Dict[str, str]]: ...

@@ -222,6 +222,7 @@ OF_MEASURE = rows("measure", "Skeleton", "Running")
 OF_PRUNE = rows("prune", "Pruning", "Running")
 OF_THICKNESS = rows("thickness", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running")
 OF_SHEETS = rows("sheets", "Input", "Pruning", "Shape edits", "Refinement", "Thickness and sheets", "Running")
+OF_COMPARE = rows("compare", "Input", "Comparison", "Running")
 for _of_saving in (OF_SKELETON, OF_MEASURE):
     del _of_saving["also"]  # of Skeleton.save()
 for _of_program in ("sections", "branch_map", "order_map", "skeleton_map", "centerlines", "flow", "inlet",

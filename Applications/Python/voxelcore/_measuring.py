@@ -1,5 +1,6 @@
 """Arrays, cores and skeletons measured, cut into sheets, and checked again."""
 
+import os
 import typing
 
 import numpy
@@ -206,6 +207,68 @@ def sheets(source, sliver="3vox", *, threads=0, progress=None, **options):
     return dict(cut, core=source)
 
 
+def compare(a, b, *, spacing=None, label=None, axes=None, threshold=None, progress=None, **options):
+    """Two masks, skeletons or cores against each other, as 'voxelcore compare' does it; a is the reference.
+
+    Parameters
+    ----------
+    a, b : Core, Skeleton, array_like of whole numbers, image, or path
+        Arrays, images and paths as of core(); or the path of a result (.vtp) or of a tree (.swc, .rsml).
+    spacing : float, three floats, or str, mm, optional
+        Of both arrays, as of core().
+    label : int, str, or list or array of int, optional
+        As of core(), but without it all labels are compared, each by itself.
+    axes : {'ijk', 'kji'}, optional
+        As of core().
+    threshold : tuple (lo, hi) of float, optional
+        As of core().
+    progress : callable, optional
+        As of core().
+    **options
+
+    Returns
+    -------
+    dict
+        kind ('masks', 'skeletons' or 'cores'), unit, notes, and lists of dict under the names of the program's tables
+        and columns: labels, differences, and of skeletons branches and levels. None where there is nothing to measure.
+
+    Examples
+    --------
+    >>> rod = numpy.zeros((30, 9, 9), numpy.uint8)
+    >>> rod[2:28, 2:7, 2:7] = 1
+    >>> cut = rod.copy()
+    >>> cut[14] = 0
+    >>> found = compare(rod, cut, spacing=0.5)
+    >>> round(found["labels"][0]["dice"], 3), found["labels"][0]["b0_error_26"]
+    (0.98, 1)
+    >>> [(part["kind"], part["change"], part["i"]) for part in found["differences"]]
+    [('piece', 'broken', 8)]
+    """
+    import json
+
+    def taken(source):
+        return _arguments.of_array(
+            "compare", _arguments.OF_COMPARE, options, _volume.opened(source), spacing, axes, label, threshold
+        )
+
+    def side(source):
+        if isinstance(source, (Core, Skeleton)):
+            return (source._data,)
+        if isinstance(source, (str, os.PathLike)) and os.fspath(source).endswith((".vtp", ".swc", ".rsml")):
+            return (os.fsencode(source),)
+        one = taken(source)[0]
+        return (one.array, one.spacing, one.origin or [0.0] * 3, one.direction or [1.0, 0, 0, 0, 1, 0, 0, 0, 1])
+
+    sides = side(a), side(b)
+    voxels = next((one for one, given in zip((a, b), sides) if len(given) > 1), numpy.zeros((1, 1, 1), bool))
+    values = taken(voxels)[1]
+    return {
+        key: value
+        for key, value in json.loads(_voxelcore.compare(*sides, values, progress)).items()
+        if key not in ("voxelcore", "a", "b")
+    }
+
+
 def precomputed(results, folder, *, overwrite=False):
     """Writes skeletons, or cores, into one folder for Neuroglancer, each under its label.
 
@@ -268,3 +331,4 @@ def columns(unit="mm"):
 _arguments.documented(thickness, _arguments.OF_THICKNESS)
 _arguments.documented(measure, _arguments.OF_MEASURE)
 _arguments.documented(sheets, _arguments.OF_SHEETS)
+_arguments.documented(compare, _arguments.OF_COMPARE)

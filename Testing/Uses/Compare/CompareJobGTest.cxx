@@ -183,7 +183,7 @@ TEST_F(CompareJob, WhatCannotBeComparedIsRefusedInOneLine)
   ExpectRefused("a.nrrd", "none.nrrd", "none.nrrd: no such file");
   ExpectRefused("a.nrrd", "a.nrrd", "only skeletons have branches", { { "output", At("o.vtp") } });
   ExpectRefused("a.nrrd", "a.nrrd", "--table", { { "table", At("t.txt") } });
-  ExpectRefused("a.nrrd", "a.nrrd", "--within is", { { "within", "2mm" } });
+  ExpectRefused("a.nrrd", "a.nrrd", "--near is", { { "near", "2mm" } });
   std::vector<std::uint16_t> grey(40 * 40 * 20);
   for (std::size_t i = 0; i < grey.size(); ++i)
   {
@@ -233,7 +233,7 @@ TEST_F(CompareJob, SurfacesAreApartAsMuchAsPruningTakesAway)
   EXPECT_LT(less.at("coverage_a").get<double>(), 1);
   EXPECT_NEAR(less.at("coverage_b").get<double>(), 1, 1e-12); // all that is left was there before
   ExpectRefused("a.nrrd", "whole.vtp", "is a medial surface");
-  ExpectRefused("whole.vtp", "whole.vtp", "--within 2%: expected a length", { { "within", "2%" } });
+  ExpectRefused("whole.vtp", "whole.vtp", "--near 2%: expected a length", { { "near", "2%" } });
 }
 
 } // namespace

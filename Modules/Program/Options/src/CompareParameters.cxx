@@ -17,9 +17,9 @@ CompareOptionsWithoutFiles(const ParameterValues & values)
   ReadScanFields(reader, options.making);
   options.making.reading.mayBeMissing = reader.IsGiven("labels");
   options.lines = !reader.IsSet("no-skeletons");
-  if (reader.IsGiven("within"))
+  if (reader.IsGiven("near"))
   {
-    options.within = reader.Parsed("within", [](const std::string & text) { return ParseLambda(text, "length"); });
+    options.near = reader.Parsed("near", [](const std::string & text) { return ParseLambda(text, "length"); });
   }
   return options;
 }

@@ -115,10 +115,10 @@ KeywordOf(const Parameter & parameter)
     return parameter.keyword == "-" ? std::string() : std::string(parameter.keyword);
   }
   const bool isFile = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
-  const bool isNamedAlike = parameter.group == ParameterGroup::Pruning ||
-                            parameter.group == ParameterGroup::ShapeEdits ||
-                            parameter.group == ParameterGroup::Refinement ||
-                            parameter.group == ParameterGroup::Skeleton || parameter.group == ParameterGroup::Thickness;
+  const bool isNamedAlike =
+    parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
+    parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton ||
+    parameter.group == ParameterGroup::Thickness || parameter.group == ParameterGroup::Comparison;
   return isNamedAlike && !isFile && !parameter.flags.empty() ? WithUnderscores(parameter.name) : std::string();
 }
 

@@ -221,9 +221,9 @@ CompareMasks(CompareSide              a,
              CompareResult &          result,
              const ProgressCallback & progress)
 {
-  if (options.within)
+  if (options.near)
   {
-    throw UsageError("--within is for skeletons and medial surfaces; masks are compared voxel by voxel");
+    throw UsageError("--near is for skeletons and medial surfaces; masks are compared voxel by voxel");
   }
   BringTogether(a, b, result.notes);
   const auto &               mapA = std::get<LabelMap>(a.content);
@@ -256,19 +256,19 @@ CompareMasks(CompareSide              a,
 }
 
 double
-WithinOf(const CompareOptions & options, SpatialUnit unit)
+NearOf(const CompareOptions & options, SpatialUnit unit)
 {
-  if (!options.within)
+  if (!options.near)
   {
     return 0;
   }
-  RequireLengthIn(unit, *options.within);
-  if (options.within->unit == Lambda::Unit::Percent ||
-      (options.within->unit == Lambda::Unit::Voxel && unit == SpatialUnit::Millimetres))
+  RequireLengthIn(unit, *options.near);
+  if (options.near->unit == Lambda::Unit::Percent ||
+      (options.near->unit == Lambda::Unit::Voxel && unit == SpatialUnit::Millimetres))
   {
-    throw UsageError("--within " + options.within->text + ": expected a length in mm, such as 0.5mm");
+    throw UsageError("--near " + options.near->text + ": expected a length in mm, such as 0.5mm");
   }
-  return options.within->value;
+  return options.near->value;
 }
 
 SkeletonModel
@@ -348,7 +348,7 @@ CompareSkeletons(CompareSide              a,
   RequireSameUnit(a.name, result.treesA.unit, b.name, result.treesB.unit);
   result.kind = "skeletons";
   result.unit = result.treesA.unit;
-  const TreeTolerance        tolerance{ WithinOf(options, result.unit) };
+  const TreeTolerance        tolerance{ NearOf(options, result.unit) };
   std::vector<ComparedTrees> labels;
   SkeletonModel              trees[2];
   for (const Pair & pair : Paired(
@@ -388,7 +388,7 @@ CompareSurfaces(CompareSide a, CompareSide b, const CompareOptions & options, Co
   KeepLabels(modelA.parts, options.making.reading.labels, a.name);
   KeepLabels(modelB.parts, options.making.reading.labels, b.name);
   RequireSameUnit(a.name, modelA.unit, b.name, modelB.unit);
-  const double               within = WithinOf(options, modelA.unit);
+  const double               near = NearOf(options, modelA.unit);
   std::vector<ComparedCores> labels;
   for (const Pair & pair : Paired(
          modelA.parts,
@@ -402,56 +402,12 @@ CompareSurfaces(CompareSide a, CompareSide b, const CompareOptions & options, Co
     ComparedCores     compared;
     compared.label = pair.a ? partA.label : partB.label;
     compared.name = "label-" + std::to_string(compared.label);
-    compared.found = CompareCores(partA.core, partB.core, within);
+    compared.found = CompareCores(partA.core, partB.core, near);
     labels.push_back(std::move(compared));
   }
   result.kind = "cores";
   result.unit = modelA.unit;
   result.tables = TablesOf(labels, result.unit);
-}
-
-CompareSide
-ReadSide(const fs::path &         path,
-         const CompareOptions &   options,
-         CompareResult &          result,
-         const ProgressCallback & progress)
-{
-  CompareSide side{ path.string(), {} };
-  if (IsTreePath(path))
-  {
-    side.content = ReadTreeFile(path);
-    return side;
-  }
-  if (!IsFinishedCore(path, options.making.reading, options.making.resolution))
-  {
-    InputScan scan = ReadScanOrMesh(path, options.making.reading, options.making.resolution, progress);
-    result.warnings.insert(result.warnings.end(), scan.warnings.begin(), scan.warnings.end());
-    side.content = std::move(static_cast<LabelMap &>(scan));
-    return side;
-  }
-  std::string rounded;
-  try
-  {
-    SkeletonModel skeleton = ReadSkeletonVtp(path);
-    rounded = skeleton.rounded;
-    if (const CoreReport made = ParseProvenance(skeleton.provenance, path.string());
-        made.labels.size() == skeleton.parts.size())
-    {
-      for (std::size_t i = 0; i < made.labels.size(); ++i)
-      {
-        skeleton.parts[i].name = made.labels[i].name;
-      }
-    }
-    side.content = std::move(skeleton);
-  }
-  catch (const InputError &)
-  {
-    MedialModel model = ReadModel(path, Precision::AsSaved); // says what is wrong when it is neither
-    rounded = model.rounded;
-    side.content = std::move(model);
-  }
-  WarnOfRounding(path, rounded, result.warnings);
-  return side;
 }
 
 /** Poly lines of branches: those of A, found (0) or missed (1), and those of B that are invented (2). */
@@ -511,6 +467,50 @@ Require(const std::optional<fs::path> & target, const char * option, const char 
 
 } // namespace
 
+CompareSide
+ReadCompareSide(const fs::path &           path,
+                const CompareOptions &     options,
+                std::vector<std::string> & warnings,
+                const ProgressCallback &   progress)
+{
+  CompareSide side{ path.string(), {} };
+  if (IsTreePath(path))
+  {
+    side.content = ReadTreeFile(path);
+    return side;
+  }
+  if (!IsFinishedCore(path, options.making.reading, options.making.resolution))
+  {
+    InputScan scan = ReadScanOrMesh(path, options.making.reading, options.making.resolution, progress);
+    warnings.insert(warnings.end(), scan.warnings.begin(), scan.warnings.end());
+    side.content = std::move(static_cast<LabelMap &>(scan));
+    return side;
+  }
+  std::string rounded;
+  try
+  {
+    SkeletonModel skeleton = ReadSkeletonVtp(path);
+    rounded = skeleton.rounded;
+    if (const CoreReport made = ParseProvenance(skeleton.provenance, path.string());
+        made.labels.size() == skeleton.parts.size())
+    {
+      for (std::size_t i = 0; i < made.labels.size(); ++i)
+      {
+        skeleton.parts[i].name = made.labels[i].name;
+      }
+    }
+    side.content = std::move(skeleton);
+  }
+  catch (const InputError &)
+  {
+    MedialModel model = ReadModel(path, Precision::AsSaved); // says what is wrong when it is neither
+    rounded = model.rounded;
+    side.content = std::move(model);
+  }
+  WarnOfRounding(path, rounded, warnings);
+  return side;
+}
+
 CompareResult
 Compare(CompareSide a, CompareSide b, const CompareOptions & options, const ProgressCallback & progress)
 {
@@ -559,12 +559,12 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
     targets.push_back(ColumnsBeside(*options.table));
   }
   CheckTargets(transaction, targets);
-  CompareResult read;
-  CompareSide   a = ReadSide(options.a, options, read, PartOfProgress(context.progress, "reading", 0, 0.1));
-  CompareSide   b = ReadSide(options.b, options, read, PartOfProgress(context.progress, "reading", 0.1, 0.2));
+  std::vector<std::string> warnings;
+  CompareSide a = ReadCompareSide(options.a, options, warnings, PartOfProgress(context.progress, "reading", 0, 0.1));
+  CompareSide b = ReadCompareSide(options.b, options, warnings, PartOfProgress(context.progress, "reading", 0.1, 0.2));
   CompareResult result =
     Compare(std::move(a), std::move(b), options, PartOfProgress(context.progress, "comparing", 0.2, 0.95));
-  result.warnings.insert(result.warnings.begin(), read.warnings.begin(), read.warnings.end());
+  result.warnings = std::move(warnings);
   ReportProgress(context.progress, "writing", 0.95);
   if (options.output)
   {

@@ -482,7 +482,7 @@ CompareTrees(const SkeletonGraph & a, const SkeletonGraph & b, const TreeToleran
   const double radiusB = MedianRadius(b);
   if (!(radiusA > 0) && !(tolerance.least > 0))
   {
-    throw InputError("the reference has no radii, so nothing says how near is near; give --within, such as 1mm");
+    throw InputError("the reference has no radii, so nothing says how near is near; give --near, such as 1mm");
   }
   double step = radiusA > 0 ? radiusA : tolerance.least;
   step = radiusB > 0 ? std::min(step, radiusB) : step;

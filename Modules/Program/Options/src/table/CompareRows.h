@@ -9,8 +9,8 @@ namespace voxelcore::table
 {
 
 inline constexpr auto kCompareRows = std::to_array<Parameter>({
-  { "within",
-    "--within",
+  { "near",
+    "--near",
     Text,
     "L",
     "",

@@ -22,7 +22,7 @@ struct CompareOptions
   std::filesystem::path                b;
   SkeletonOptions                      making;       ///< how scans are read, and how their skeletons are made
   bool                                 lines = true; ///< of masks, too, what needs their skeletons
-  std::optional<Lambda>                within;       ///< TreeTolerance::least, and of what medial surfaces cover
+  std::optional<Lambda>                near;         ///< TreeTolerance::least, and of what medial surfaces cover
   std::optional<std::filesystem::path> output{};     ///< .vtp: branches of trees with what was found
   std::optional<std::filesystem::path> table{};      ///< .csv
   std::optional<std::filesystem::path> report{};     ///< .json
@@ -50,7 +50,14 @@ struct CompareResult
   std::vector<std::array<std::vector<BranchMatch>, 2>> matches; ///< of their branches
 };
 
-/** Compares what is in memory; of the options only `making`, `lines` and `within` count.
+/** Reads a file as one side. Adds to `warnings` what a user must be told. \throws InputError, Cancelled */
+CompareSide
+ReadCompareSide(const std::filesystem::path & path,
+                const CompareOptions &        options,
+                std::vector<std::string> &    warnings,
+                const ProgressCallback &      progress = {});
+
+/** Compares what is in memory; of the options only `making`, `lines` and `near` count.
  *
  *  Masks are compared label by label: those of one value, or the only one of each. Their grids must be the same, or
  *  differ in their boxes alone: then in what both hold. Skeletons are compared label by label, too; those of SWC and
