@@ -34,6 +34,7 @@ OF_TABLE = {
     "measure": _arguments.OF_MEASURE,
     "thickness": _arguments.OF_THICKNESS,
     "sheets": _arguments.OF_SHEETS,
+    "compare": _arguments.OF_COMPARE,
 }
 
 

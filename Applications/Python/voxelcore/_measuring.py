@@ -212,8 +212,10 @@ def compare(a, b, *, spacing=None, label=None, axes=None, threshold=None, progre
 
     Parameters
     ----------
-    a, b : Core, Skeleton, array_like of whole numbers, image, or path
+    a : Core, Skeleton, array_like of whole numbers, image, or path
         Arrays, images and paths as of core(); or the path of a result (.vtp) or of a tree (.swc, .rsml).
+    b : Core, Skeleton, array_like of whole numbers, image, or path
+        The same.
     spacing : float, three floats, or str, mm, optional
         Of both arrays, as of core().
     label : int, str, or list or array of int, optional

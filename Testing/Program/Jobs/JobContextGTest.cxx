@@ -136,6 +136,10 @@ TEST_F(Progress, OfSkeletonsGivesEachStageItsPart)
                                          { "force", "true" } }),
                    context);
   });
+  Watch("compare", [&](const JobContext & context) {
+    RunCompareJob(CompareOptionsFrom({ { "a", At("a.nrrd") }, { "b", At("a.nrrd") }, { "table", At("t.csv") } }),
+                  context);
+  });
   Watch("straighten", [&](const JobContext & context) {
     RunStraightenJob(StraightenOptionsFrom({ { "scan", At("a.nrrd") },
                                              { "skeleton", At("s.vtp") },

@@ -278,6 +278,19 @@ TEST(MaskComparison, ShiftedBoxIsAsFarAsItsShift)
   EXPECT_EQ(same.mean, 0);
 }
 
+TEST(MaskComparison, ABoxInAGreaterOneIsAsFarAsTheirCorners)
+{
+  // 10^3 voxels in the middle of 14^3: two voxels between them along each axis.
+  const VoxelShape  inner = Box({ 10, 10, 10 }, { 2, 2, 2 });
+  const VoxelShape  outer = Box({ 14, 14, 14 });
+  const MaskOverlap overlap = CountOverlap(inner, outer);
+  EXPECT_EQ(overlap.Dice(), 2000.0 / 3744.0);
+  EXPECT_EQ(overlap.Jaccard(), 1000.0 / 2744.0);
+  EXPECT_EQ(overlap.LeakageRatio(), 1.744);
+  const SurfaceDistances found = MeasureSurfaceDistances(inner, outer, { 1, 2, 2 });
+  EXPECT_EQ(found.hausdorff, 6); // sqrt((1 x 2)^2 + (2 x 2)^2 + (2 x 2)^2) between corners
+}
+
 TEST(MaskComparison, GrownRodIsAsFarAsItIsLonger)
 {
   // A rod one voxel thick: its 10 voxels are 0 from the longer one's, whose 4 further ones are 2, 4, 6, 8 mm from it.

@@ -12,11 +12,13 @@ namespace voxelcore
 bool
 IsTreePath(const std::filesystem::path & path);
 
-/** Reads a tree as one skeleton, label 1, its branches cut where more than two lines meet.
+/** Reads a tree as one skeleton, label 1, its branches cut where more than two lines meet. Places are taken as LPS.
  *
- *  SWC: `id type x y z radius parent`, parents first, in micrometres; in voxels where VoxelCore's head says so. RSML: polylines of roots, in the unit of <unit> (mm, cm, um or pixel) with <resolution> 1, and radii of half the
- *  function "diameter", where there is one. A lateral hangs on that point of its parent that is nearest to its first;
- *  where they are apart, a straight line joins them. Places are taken as LPS. \throws InputError */
+ *  SWC: `id type x y z radius parent`, parents first, in micrometres; in voxels where VoxelCore's head says so.
+ *
+ *  RSML: polylines of roots, in the unit of `<unit>` (mm, cm, m, um or pixel) with `<resolution>` 1, and radii of half
+ *  the function "diameter", where there is one. A lateral hangs on that point of its parent that is nearest to its
+ *  first; where they are apart, a straight line joins them. \throws InputError */
 SkeletonModel
 ReadTreeFile(const std::filesystem::path & path);
 
