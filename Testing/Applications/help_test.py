@@ -91,7 +91,10 @@ def write_inputs(program):
         run(program, "phantom", kind, "--size", 32, "-o", name, "-q")
     run(program, "core", "root.nrrd", "--lambda", 0, "-o", "core.vtp", "-q")
     run(program, "core", "atlas.nii.gz", "-o", "atlas.vtp", "-q")
-    run(program, "skeleton", "chest.nii.gz", "-o", "aorta.vtp", "-q")
+    run(program, "skeleton", "chest.nii.gz", "-o", "aorta.vtp", "--also", "swc", "-q")
+    Path("aorta.swc").rename("traced.swc")
+    for name in ("truth.nii.gz", "network.nii.gz"):
+        shutil.copy("scan.nii.gz", name)
     Path("scans").mkdir()
     shutil.copy("scan.nii.gz", "scans")
     Path("cohort.csv").write_text("id,scan,lambda\na,scan.nii.gz,1vox\nb,bone.nrrd,\n")

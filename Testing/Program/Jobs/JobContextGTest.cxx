@@ -137,8 +137,7 @@ TEST_F(Progress, OfSkeletonsGivesEachStageItsPart)
                    context);
   });
   Watch("compare", [&](const JobContext & context) {
-    RunCompareJob(CompareOptionsFrom({ { "a", At("a.nrrd") }, { "b", At("a.nrrd") }, { "table", At("t.csv") } }),
-                  context);
+    RunCompareJob(CompareOptionsFrom({ { "a", At("a.nrrd") }, { "b", At("a.nrrd") } }), context);
   });
   Watch("straighten", [&](const JobContext & context) {
     RunStraightenJob(StraightenOptionsFrom({ { "scan", At("a.nrrd") },

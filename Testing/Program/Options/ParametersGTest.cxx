@@ -61,7 +61,7 @@ TEST(ParameterTable, OptionsOfAGroupStandTogetherInTheOrderOfTheHeadings)
     last = parameter.group;
     headings.insert(GroupHeading(parameter.group));
   }
-  EXPECT_EQ(headings.size(), 13U);
+  EXPECT_EQ(headings.size(), 14U);
 }
 
 /** "--words" in a text. */

@@ -4,7 +4,7 @@
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Complex/ComplexTopology.h"
-#include "voxelcore/Jobs/CoreJob.h"
+#include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/OutputNames.h"
@@ -19,32 +19,10 @@ namespace voxelcore
 namespace
 {
 
-/** The core is a step on the way that is not written. */
 SkeletonResult
 FromScan(const SkeletonOptions & options, const JobContext & context)
 {
-  CoreOptions core;
-  core.scan = options.input;
-  core.reading = options.reading;
-  core.resolution = options.resolution;
-  core.edits = options.edits;
-  core.further = options.further;
-  core.lambdas = { options.stage.lambda };
-  if (options.stage.tolerance)
-  {
-    core.tolerances = { *options.stage.tolerance };
-  }
-  core.refine = options.refine;
-  core.skeleton = options.stage;
-  core.skeletonOutput = options.output;
-  core.skeletonTargets = options.targets;
-  core.report = options.report;
-  core.display = options.display;
-  core.engine = options.engine;
-  core.threads = options.threads;
-  core.force = options.force;
-  core.command = options.command;
-  CoreResult result = RunCoreJob(core, context);
+  CoreResult result = RunCoreJob(CoreOptionsOf(options), context);
   return { std::move(result.report), std::move(result.warnings), std::move(result.notes) };
 }
 
@@ -154,6 +132,33 @@ CombinedRequest(const BranchRequest & before, const BranchRequest & now)
 }
 
 } // namespace
+
+CoreOptions
+CoreOptionsOf(const SkeletonOptions & options)
+{
+  CoreOptions core;
+  core.scan = options.input;
+  core.reading = options.reading;
+  core.resolution = options.resolution;
+  core.edits = options.edits;
+  core.further = options.further;
+  core.lambdas = { options.stage.lambda };
+  if (options.stage.tolerance)
+  {
+    core.tolerances = { *options.stage.tolerance };
+  }
+  core.refine = options.refine;
+  core.skeleton = options.stage;
+  core.skeletonOutput = options.output;
+  core.skeletonTargets = options.targets;
+  core.report = options.report;
+  core.display = options.display;
+  core.engine = options.engine;
+  core.threads = options.threads;
+  core.force = options.force;
+  core.command = options.command;
+  return core;
+}
 
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)

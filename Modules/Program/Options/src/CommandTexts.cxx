@@ -260,9 +260,9 @@ surfaces get distances and coverage. Guide: compare.md
 
 Examples:
   voxelcore compare truth.nii.gz network.nii.gz --table compared.csv
-  voxelcore compare truth.seg.nrrd network.nii.gz --labels airway,2 --report compared.json
-  voxelcore compare traced.swc skeleton.vtp -o found.vtp --table compared.csv
-  voxelcore compare medial.vtp pruned.vtp --near 0.5mm)";
+  voxelcore compare truth.nii.gz network.nii.gz --labels 1 --no-skeletons --report compared.json
+  voxelcore compare traced.swc aorta.vtp -o found.vtp --table trees.csv
+  voxelcore compare core.vtp medial.vtp --near 0.5mm)";
 
 constexpr std::array<Command, 16> kCommands{ {
   { CommandId::Core, "core", "Compute the medial surface of one, several or all labels of a scan", kCoreFooter },

@@ -4,6 +4,7 @@
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Compare/TreeFiles.h"
+#include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Labels/CropRange.h"
@@ -158,17 +159,8 @@ SkeletonOfMask(LabelShape               label,
 {
   InputScan scan;
   scan.geometry = geometry;
-  CoreOptions core;
+  CoreOptions core = CoreOptionsOf(making);
   core.scan = name;
-  core.reading = making.reading;
-  core.lambdas = { making.stage.lambda };
-  if (making.stage.tolerance)
-  {
-    core.tolerances = { *making.stage.tolerance };
-  }
-  core.refine = making.refine;
-  core.skeleton = making.stage;
-  core.engine = making.engine;
   std::vector<LabelShape> labels;
   labels.push_back(std::move(label));
   EditedLabels edited = EditLabels(std::move(labels), geometry, making.edits, true, name);

@@ -4,6 +4,7 @@
 #include "voxelcore/Jobs/CoreJob.h"
 #include "voxelcore/Jobs/OutputTransaction.h"
 #include "voxelcore/Jobs/ReadInput.h"
+#include "voxelcore/Jobs/SkeletonJob.h"
 
 #include <functional>
 #include <vector>
@@ -14,6 +15,10 @@ namespace voxelcore
 /** Everything a user could have given wrong that can be seen before reading. \throws UsageError, OutputError */
 void
 CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction);
+
+/** A job of skeletons alone as one whose core is a step on the way that is not written. */
+CoreOptions
+CoreOptionsOf(const SkeletonOptions & options);
 
 /** A scan that was read, and its labels as `options.edits` says, or as they were edited further. */
 struct ScanAtHand
