@@ -588,8 +588,8 @@ std::string
 CompareJson(const CompareResult & result, const CompareOptions & options)
 {
   Json json = { { "voxelcore", { { "version", VoxelCoreVersion() }, { "command", options.command } } },
-                { "a", options.a.string() },
-                { "b", options.b.string() },
+                { "a", { { "path", options.a.string() } } },
+                { "b", { { "path", options.b.string() } } },
                 { "kind", result.kind },
                 { "unit", UnitName(result.unit) },
                 { "notes", result.notes } };
