@@ -181,7 +181,7 @@ TEST_F(CompareJob, WhatCannotBeComparedIsRefusedInOneLine)
   ExpectRefused("a.nrrd", "far.nrrd", "lies beside");
   ExpectRefused("a.nrrd", "a.nrrd", "has such a label: --labels 7", { { "labels", "7" } });
   ExpectRefused("a.nrrd", "none.nrrd", "none.nrrd: no such file");
-  ExpectRefused("a.nrrd", "a.nrrd", "only skeletons have branches", { { "output", At("o.vtp") } });
+  ExpectRefused("a.nrrd", "a.nrrd", "show branches of skeletons", { { "output", At("o.vtp") } });
   ExpectRefused("a.nrrd", "a.nrrd", "--table", { { "table", At("t.txt") } });
   ExpectRefused("a.nrrd", "a.nrrd", "--near is", { { "near", "2mm" } });
   std::vector<std::uint16_t> grey(40 * 40 * 20);
@@ -217,6 +217,8 @@ TEST_F(CompareJob, SkeletonsAreComparedWithWhatIsMadeOfThem)
     EXPECT_NEAR(row.at("radius_error").get<double>(), 0, 1e-5);
     EXPECT_NE(Bytes("found.vtp").find("Name=\"Found\""), std::string::npos);
   }
+  Report("root.swc", "root.vtp", { { "html", At("page.html") } });
+  EXPECT_NE(Bytes("page.html").find("invented"), std::string::npos);
   EXPECT_TRUE(Names().contains("t_branches.csv") && Names().contains("t_levels.csv"));
 }
 

@@ -155,6 +155,11 @@ TEST_F(TreeFiles, MergedLinesMeetWhereTheyDid)
   EXPECT_NEAR(LengthOf(merged), LengthOf(model.parts[0].graph) + LengthOf(model.parts[1].graph), 1e-12);
   EXPECT_EQ(std::ranges::count(merged.nodeKinds, NodeKind::Junction), 1);
   EXPECT_EQ(std::ranges::count(merged.nodeKinds, NodeKind::Loop), 1);
+  // Without one of three branches, the other two go on as one.
+  const SkeletonGraph chosen =
+    MergedGraph(model, [](std::size_t part, std::size_t branch) { return part == 0 && branch != 2; });
+  EXPECT_EQ(chosen.BranchCount(), 1U);
+  EXPECT_EQ(chosen.nodePoints.size(), 2U);
 }
 
 } // namespace

@@ -34,6 +34,7 @@ CompareOptionsFrom(const ParameterValues & values)
   options.output = reader.FileIfGiven("output");
   options.table = reader.FileIfGiven("table");
   options.report = reader.FileIfGiven("report");
+  options.display = DisplayTargetsFrom(values, CommandId::Compare);
   options.force = reader.IsSet("force");
   return options;
 }

@@ -5,6 +5,7 @@
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Compare/TreeFiles.h"
 #include "voxelcore/Jobs/CoreJobSteps.h"
+#include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Labels/CropRange.h"
@@ -448,6 +449,31 @@ WriteFoundVtp(const fs::path & path, const CompareResult & result)
   WriteVtp(path, content);
 }
 
+/** The branches that were found, missed and invented, as labels of a page or scene. */
+void
+Show(DisplayFiles &             shown,
+     const CompareResult &      result,
+     std::vector<std::string> & notes,
+     const ProgressCallback &   progress)
+{
+  CoreReport report;
+  report.input.geometry.unit = result.unit;
+  for (const char * name : { "found", "missed", "invented" })
+  {
+    const bool   ofA = name[0] != 'i';
+    SkeletonPart part;
+    part.graph = MergedGraph(ofA ? result.treesA : result.treesB, [&](std::size_t row, std::size_t branch) {
+      return result.matches[row][ofA ? 0 : 1][branch].IsFound() == (name[0] == 'f');
+    });
+    part.table = MeasureBranches(part.graph);
+    report.labels.emplace_back();
+    report.labels.back().label = std::ssize(report.labels);
+    report.labels.back().name = name;
+    shown.AddLabel(report.labels.back(), ModelPart(), &part);
+  }
+  shown.Finish(report, notes, progress);
+}
+
 void
 Require(const std::optional<fs::path> & target, const char * option, const char * extension)
 {
@@ -551,6 +577,7 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
     targets.push_back(ColumnsBeside(*options.table));
   }
   CheckTargets(transaction, targets);
+  DisplayFiles             shown(options.display, options.a, transaction);
   std::vector<std::string> warnings;
   CompareSide a = ReadCompareSide(options.a, options, warnings, PartOfProgress(context.progress, "reading", 0, 0.1));
   CompareSide b = ReadCompareSide(options.b, options, warnings, PartOfProgress(context.progress, "reading", 0.1, 0.2));
@@ -558,12 +585,17 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
     Compare(std::move(a), std::move(b), options, PartOfProgress(context.progress, "comparing", 0.2, 0.95));
   result.warnings = std::move(warnings);
   ReportProgress(context.progress, "writing", 0.95);
+  if ((options.output || shown.AreAsked()) && result.kind != "skeletons")
+  {
+    throw UsageError("--output, --html and --scene show branches of skeletons; " + options.a.string() + " and " +
+                     options.b.string() + " are none");
+  }
+  if (shown.AreAsked())
+  {
+    Show(shown, result, result.notes, PartOfProgress(context.progress, 0.95, 1));
+  }
   if (options.output)
   {
-    if (result.kind != "skeletons")
-    {
-      throw UsageError("--output " + options.output->string() + ": only skeletons have branches to show");
-    }
     WriteFoundVtp(transaction.Stage(*options.output), result);
   }
   if (options.table)

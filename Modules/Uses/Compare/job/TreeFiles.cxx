@@ -396,23 +396,34 @@ ReadTreeFile(const std::filesystem::path & path)
 }
 
 SkeletonGraph
-MergedGraph(const SkeletonModel & model)
+MergedGraph(const SkeletonModel & model, const BranchChoice & choice)
 {
   Edges all;
-  for (const SkeletonPart & part : model.parts)
+  for (std::size_t part = 0; part < model.parts.size(); ++part)
   {
-    const SkeletonGraph & graph = part.graph;
-    const auto            first = static_cast<ElementIndex>(all.positions.size());
-    all.positions.insert(all.positions.end(), graph.positions.begin(), graph.positions.end());
-    const auto & radii = SectionRadii(graph);
-    all.radius.insert(all.radius.end(), radii.begin(), radii.end());
+    const SkeletonGraph &     graph = model.parts[part].graph;
+    std::vector<ElementIndex> numbers(graph.positions.size(), kNoBranch);
+    const auto                numberOf = [&](ElementIndex point) {
+      if (numbers[point] == kNoBranch)
+      {
+        numbers[point] = static_cast<ElementIndex>(all.positions.size());
+        all.positions.push_back(graph.positions[point]);
+        all.radius.push_back(SectionRadii(graph)[point]);
+      }
+      return numbers[point];
+    };
     for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
     {
       const auto points = graph.Branch(branch);
-      for (std::size_t i = 1; i < points.size(); ++i)
+      for (std::size_t i = 1; i < points.size() && (!choice || choice(part, branch)); ++i)
       {
-        all.edges.push_back({ first + points[i - 1], first + points[i] });
+        const ElementIndex first = numberOf(points[i - 1]);
+        all.edges.push_back({ first, numberOf(points[i]) });
       }
+    }
+    for (std::size_t node = 0; node < graph.nodePoints.size() && !choice; ++node)
+    {
+      numberOf(graph.nodePoints[node]);
     }
   }
   return GraphOfEdges(std::move(all));

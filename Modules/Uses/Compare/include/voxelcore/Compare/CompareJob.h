@@ -2,6 +2,7 @@
 // `voxelcore compare`: two masks, skeletons or medial surfaces against each other. A is the reference.
 
 #include "voxelcore/Compare/CompareTables.h"
+#include "voxelcore/Jobs/DisplayTargets.h"
 #include "voxelcore/Jobs/JobContext.h"
 #include "voxelcore/Jobs/SkeletonJob.h"
 #include "voxelcore/Models/MedialModel.h"
@@ -25,6 +26,7 @@ struct CompareOptions
   std::optional<Lambda>                near;         ///< TreeTolerance::least, and of what medial surfaces cover
   std::optional<std::filesystem::path> output{};     ///< .vtp: branches of trees with what was found
   std::optional<std::filesystem::path> table{};      ///< .csv
+  DisplayTargets                       display{};    ///< of trees: found, missed and invented branches
   std::optional<std::filesystem::path> report{};     ///< .json
   bool                                 force = false;
   std::string                          command{}; ///< only recorded

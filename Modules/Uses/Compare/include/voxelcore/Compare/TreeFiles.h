@@ -3,7 +3,9 @@
 
 #include "voxelcore/Models/SkeletonModel.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 
 namespace voxelcore
 {
@@ -22,8 +24,12 @@ IsTreePath(const std::filesystem::path & path);
 SkeletonModel
 ReadTreeFile(const std::filesystem::path & path);
 
-/** The same lines as one skeleton, whatever label they are of, cut where more than two meet. */
+/** Whether to take a branch, by the numbers of its part and its own. */
+using BranchChoice = std::function<bool(std::size_t part, std::size_t branch)>;
+
+/** The same lines as one skeleton, whatever label they are of, cut where more than two meet. With `choice` those
+ *  branches alone, and no isolated points. */
 SkeletonGraph
-MergedGraph(const SkeletonModel & model);
+MergedGraph(const SkeletonModel & model, const BranchChoice & choice = {});
 
 } // namespace voxelcore
