@@ -216,6 +216,21 @@ TEST(TreeComparison, RandomTreesAreNoFartherOneWayThanTheOther)
   }
 }
 
+TEST(TreeComparison, OfNothingAllIsMissedOrInvented)
+{
+  const SkeletonGraph  tree = GraphOf(Fork(), 1);
+  const TreeComparison missed = CompareTrees(tree, {}, {});
+  EXPECT_EQ(TotalsOf(missed.a).found, 0);
+  EXPECT_EQ(TotalsOf(missed.a).foundLength, 0);
+  EXPECT_EQ(Counted(missed.tips), (std::array<int, 3>{ 0, 3, 0 }));
+  EXPECT_TRUE(std::isnan(missed.axis.max));
+  const TreeComparison invented = CompareTrees({}, tree, {});
+  EXPECT_EQ(TotalsOf(invented.b).found, 0);
+  EXPECT_EQ(TotalsOf(invented.b).branches, 3);
+  EXPECT_EQ(Counted(invented.tips), (std::array<int, 3>{ 0, 0, 3 }));
+  EXPECT_TRUE(CompareTrees({}, {}, {}).tips.empty());
+}
+
 TEST(TreeComparison, AReferenceWithoutRadiiNeedsATolerance)
 {
   const SkeletonGraph thin = GraphOf({ { { 0, 0, 0 }, { 20, 0, 0 } } }, 0);

@@ -70,6 +70,7 @@ struct DisplayFiles::State
   std::vector<SkeletonPart> skeletons; ///< each with its label
   std::vector<std::size_t>  records;   ///< of both, in the report
   fs::path                  archive;   ///< where the archive comes to be; empty for a .mrml
+  bool                      byLabel = false;
 
   bool
   IsArchive() const
@@ -156,6 +157,12 @@ bool
 DisplayFiles::AreAsked() const
 {
   return m_State->targets.scene || m_State->targets.html;
+}
+
+void
+DisplayFiles::OpenByLabel()
+{
+  m_State->byLabel = true;
 }
 
 void
@@ -401,6 +408,7 @@ DisplayFiles::Finish(const CoreReport & report, std::vector<std::string> & notes
   if (m_State->targets.html)
   {
     HtmlOptions options;
+    options.byLabel = m_State->byLabel;
     options.title = ScanName(m_State->input);
     options.triangles = m_State->targets.htmlTriangles;
     options.anatomical = HasPatientAxes(report.input);

@@ -56,6 +56,10 @@ DisplayFiles::AddLabel(const LabelRecord &, const ModelPart &, const SkeletonPar
 {}
 
 void
+DisplayFiles::OpenByLabel()
+{}
+
+void
 DisplayFiles::Finish(const CoreReport &, std::vector<std::string> &, const ProgressCallback &)
 {}
 

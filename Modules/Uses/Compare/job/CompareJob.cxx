@@ -471,6 +471,7 @@ Show(DisplayFiles &             shown,
     report.labels.back().name = name;
     shown.AddLabel(report.labels.back(), ModelPart(), &part);
   }
+  shown.OpenByLabel();
   shown.Finish(report, notes, progress);
 }
 

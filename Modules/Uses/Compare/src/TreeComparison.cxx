@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -370,13 +371,7 @@ double
 MedianRadius(const SkeletonGraph & graph)
 {
   std::vector<double> radii;
-  for (const ElementIndex point : graph.branchPoints)
-  {
-    if (const double radius = SectionRadii(graph)[point]; radius > 0)
-    {
-      radii.push_back(radius);
-    }
-  }
+  std::ranges::copy_if(SectionRadii(graph), std::back_inserter(radii), [](double radius) { return radius > 0; });
   return radii.empty() ? 0 : QuantileOf(std::move(radii), 0.5);
 }
 
@@ -480,12 +475,15 @@ CompareTrees(const SkeletonGraph & a, const SkeletonGraph & b, const TreeToleran
 {
   const double radiusA = MedianRadius(a);
   const double radiusB = MedianRadius(b);
-  if (!(radiusA > 0) && !(tolerance.least > 0))
+  if (!a.positions.empty() && !(radiusA > 0) && !(tolerance.least > 0))
   {
     throw InputError("the reference has no radii, so nothing says how near is near; give --near, such as 1mm");
   }
-  double step = radiusA > 0 ? radiusA : tolerance.least;
-  step = radiusB > 0 ? std::min(step, radiusB) : step;
+  double step = std::numeric_limits<double>::infinity(); // where neither has a line, nothing is cut
+  for (const double length : { radiusA, radiusB, radiusA > 0 ? 0 : tolerance.least })
+  {
+    step = length > 0 ? std::min(step, length) : step;
+  }
   const Comparison comparison(a, b, tolerance.least, step / kSteps);
   TreeComparison   compared;
   compared.a = comparison.Branches(true);

@@ -45,6 +45,10 @@ public:
   void
   AddLabel(const LabelRecord & record, const ModelPart & surface, const SkeletonPart * skeleton);
 
+  /** The page opens in the labels' colours. */
+  void
+  OpenByLabel();
+
   void
   Finish(const CoreReport & report, std::vector<std::string> & notes, const ProgressCallback & progress);
 
