@@ -1,6 +1,7 @@
 #include "voxelcore/Compare/CompareJob.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Compare/TreeFiles.h"
@@ -301,13 +302,13 @@ KeepLabels(TParts & parts, const std::string & labels, const std::string & name)
   {
     const auto value = ParseReal(text);
     const auto has = [&](const auto & part) { return value && static_cast<double>(part.label) == *value; };
-    if (std::ranges::none_of(parts, has))
+    if (ranges::none_of(parts, has))
     {
       throw InputError(name + ": has no label " + text + "; of skeletons and surfaces --labels takes values");
     }
     wanted.push_back(static_cast<std::int64_t>(*value));
   }
-  std::erase_if(parts, [&](const auto & part) { return std::ranges::count(wanted, part.label) == 0; });
+  std::erase_if(parts, [&](const auto & part) { return ranges::count(wanted, part.label) == 0; });
 }
 
 void

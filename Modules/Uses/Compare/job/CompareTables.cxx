@@ -1,5 +1,6 @@
 #include "voxelcore/Compare/CompareTables.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Models/SkeletonModel.h"
 #include "voxelcore/Models/TableColumns.h"
@@ -288,7 +289,7 @@ TablesOf(const std::vector<ComparedMasks> & labels, const ImageGeometry & geomet
     {
       for (const PartChange change : kChanges)
       {
-        const auto count = std::ranges::count_if(one.parts, [&](const DifferingPart & part) {
+        const auto count = ranges::count_if(one.parts, [&](const DifferingPart & part) {
           return part.kind == kind && part.change == change;
         });
         if (kind != PartKind::Loop)
@@ -348,7 +349,7 @@ TablesOf(const std::vector<ComparedTrees> & labels, SpatialUnit unit)
     for (const auto * list : { &one.found.tips, &one.found.bifurcations })
     {
       const auto count = [&](bool inA, bool inB) {
-        return std::ranges::count_if(*list, [&](const PlaceMatch & p) { return p.inA == inA && p.inB == inB; });
+        return ranges::count_if(*list, [&](const PlaceMatch & p) { return p.inA == inA && p.inB == inB; });
       };
       row << count(true, true) << count(true, false) << count(false, true) << MeanDistance(*list);
       for (const PlaceMatch & match : *list)
@@ -511,7 +512,7 @@ CompareTablesText(const std::vector<CompareTable> & tables)
   std::vector<std::vector<std::string>> rows(main.rows.size() + 1);
   for (const auto & [name, head] : shown)
   {
-    const auto found = std::ranges::find(main.columns, name, &CompareColumn::name);
+    const auto found = ranges::find(main.columns, name, &CompareColumn::name);
     if (found == main.columns.end())
     {
       continue;
@@ -531,7 +532,7 @@ CompareTablesText(const std::vector<CompareTable> & tables)
   std::size_t           count = 0;
   const CompareTable &  places = tables[1];
   const auto            column = [&](const char * name) {
-    return static_cast<std::size_t>(std::ranges::find(places.columns, name, &CompareColumn::name) -
+    return static_cast<std::size_t>(ranges::find(places.columns, name, &CompareColumn::name) -
                                     places.columns.begin());
   };
   const std::size_t change = column("change");

@@ -1,6 +1,7 @@
 #include "voxelcore/Compare/TreeFiles.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Lattice/Vectors.h"
 
@@ -351,7 +352,7 @@ ReadRsml(const std::filesystem::path & path)
       ElementIndex  before = i > 0 ? points.back() : kNoBranch;
       if (i == 0 && root.parent < number && !pointsOf[root.parent].empty())
       {
-        before = *std::ranges::min_element(pointsOf[root.parent], {}, [&](ElementIndex point) {
+        before = *ranges::min_element(pointsOf[root.parent], {}, [&](ElementIndex point) {
           return Distance(edges.positions[point], place);
         });
         if (edges.positions[before] == place)

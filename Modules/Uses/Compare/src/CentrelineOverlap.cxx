@@ -1,5 +1,6 @@
 #include "voxelcore/Compare/CentrelineOverlap.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/UnionFind.h"
 #include "voxelcore/Lattice/Vectors.h"
 
@@ -48,7 +49,7 @@ WalkVoxels(const Vector3 & from, const Vector3 & to, const ImageGeometry & geome
       cuts.push_back((plane - p[k]) / d[k]);
     }
   }
-  std::ranges::sort(cuts);
+  ranges::sort(cuts);
   for (std::size_t i = 1; i < cuts.size(); ++i)
   {
     if (cuts[i] > cuts[i - 1])
@@ -149,10 +150,10 @@ SkeletonVoxels(const SkeletonGraph & graph, const ImageGeometry & geometry, cons
       take(VoxelAt(PhysicalToLattice(geometry, graph.positions[graph.nodePoints[node]])), 0);
     }
   }
-  std::ranges::sort(voxels, [](const Voxel & a, const Voxel & b) {
+  ranges::sort(voxels, [](const Voxel & a, const Voxel & b) {
     return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
   });
-  voxels.erase(std::ranges::unique(voxels).begin(), voxels.end());
+  voxels.erase(ranges::unique(voxels).begin(), voxels.end());
   return voxels;
 }
 
@@ -208,7 +209,7 @@ FindLeavingLoops(const SkeletonGraph & graph,
   }
   std::vector<std::size_t> order(lengths.size());
   std::iota(order.begin(), order.end(), std::size_t{ 0 });
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return lengths[a] < lengths[b]; });
+  ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return lengths[a] < lengths[b]; });
   UnionFind                             sets(graph.nodePoints.size());
   std::vector<std::vector<std::size_t>> branchesAt(graph.nodePoints.size());
   std::vector<std::size_t>              closing;
@@ -224,7 +225,7 @@ FindLeavingLoops(const SkeletonGraph & graph,
     branchesAt[first].push_back(branch);
     branchesAt[last].push_back(branch);
   }
-  std::ranges::sort(closing);
+  ranges::sort(closing);
   std::vector<DifferingPart> loops;
   for (const std::size_t branch : closing)
   {

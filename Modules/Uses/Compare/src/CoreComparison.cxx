@@ -1,5 +1,6 @@
 #include "voxelcore/Compare/CoreComparison.h"
 
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Compare/MaskComparison.h"
 #include "voxelcore/Refinement/TriangleTree.h"
@@ -50,7 +51,7 @@ DistancesFrom(const MedialComplex & core, const TriangleTree & other)
       distances[i] = std::sqrt(squared);
     }
   });
-  std::ranges::sort(distances);
+  ranges::sort(distances);
   return distances;
 }
 
@@ -75,7 +76,7 @@ CompareCores(const MedialComplex & a, const MedialComplex & b, double within)
     return all;
   };
   const auto coverage = [&](const std::vector<double> & sorted) {
-    return static_cast<double>(std::ranges::upper_bound(sorted, within) - sorted.begin()) /
+    return static_cast<double>(ranges::upper_bound(sorted, within) - sorted.begin()) /
            static_cast<double>(sorted.size());
   };
   CoreComparison compared;

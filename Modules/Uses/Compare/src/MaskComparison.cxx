@@ -1,6 +1,7 @@
 #include "voxelcore/Compare/MaskComparison.h"
 
 #include "voxelcore/Base/CountBits.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Lattice/LatticePoint.h"
 #include "voxelcore/Shape/ShapeOperations.h"
@@ -206,7 +207,7 @@ AddFurther(const std::vector<std::vector<std::pair<std::uint64_t, std::uint32_t>
 {
   for (auto list : byOther)
   {
-    std::ranges::sort(list, [](const auto & one, const auto & two) {
+    ranges::sort(list, [](const auto & one, const auto & two) {
       return one.first != two.first ? one.first > two.first : one.second < two.second;
     });
     for (std::size_t i = 1; i < list.size(); ++i)
@@ -359,7 +360,7 @@ QuantileOf(std::vector<double> values, double part)
   {
     return kNone;
   }
-  std::ranges::sort(values);
+  ranges::sort(values);
   const double rank = part * static_cast<double>(values.size() - 1);
   const auto   below = static_cast<std::size_t>(rank);
   const double above = values[std::min(below + 1, values.size() - 1)];
@@ -386,7 +387,7 @@ MeasureSurfaceDistances(const VoxelShape & a, const VoxelShape & b, const Vector
     return all;
   };
   SurfaceDistances distances;
-  distances.hausdorff = std::max(std::ranges::max(fromA), std::ranges::max(fromB));
+  distances.hausdorff = std::max(*ranges::max_element(fromA), *ranges::max_element(fromB));
   distances.percentile95 = std::max(QuantileOf(fromA, 0.95), QuantileOf(fromB, 0.95));
   distances.mean = (sum(fromA) + sum(fromB)) / static_cast<double>(fromA.size() + fromB.size());
   return distances;

@@ -1,6 +1,7 @@
 #include "voxelcore/Compare/TreeComparison.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/UnionFind.h"
 #include "voxelcore/Compare/CentrelineOverlap.h"
@@ -231,7 +232,7 @@ private:
     {
       return { kUnknown, kUnknown, kUnknown };
     }
-    std::ranges::sort(distances); // so that the sum does not depend on the order of A and B
+    ranges::sort(distances); // so that the sum does not depend on the order of A and B
     AxisDistances result;
     for (const double distance : distances)
     {
@@ -371,7 +372,7 @@ double
 MedianRadius(const SkeletonGraph & graph)
 {
   std::vector<double> radii;
-  std::ranges::copy_if(SectionRadii(graph), std::back_inserter(radii), [](double radius) { return radius > 0; });
+  ranges::copy_if(SectionRadii(graph), std::back_inserter(radii), [](double radius) { return radius > 0; });
   return radii.empty() ? 0 : QuantileOf(std::move(radii), 0.5);
 }
 
@@ -421,7 +422,7 @@ MatchPlaces(const SkeletonGraph & a, const SkeletonGraph & b, bool tips, const C
       }
     }
   }
-  std::ranges::sort(pairs);
+  ranges::sort(pairs);
   std::vector<double>       partnerOf(pointsA.size(), kUnknown);
   std::vector<std::uint8_t> isTaken(pointsB.size(), 0);
   for (const Pair & pair : pairs)
