@@ -606,7 +606,8 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
     {
       WriteCompareCsv(
         transaction.Stage(table.name == "labels" ? *options.table : Beside(*options.table, "_" + table.name)),
-        table);
+        table,
+        context.Heads(result.unit));
     }
     WriteTextFile(transaction.Stage(ColumnsBeside(*options.table)), CompareColumnsJson(result.tables));
   }

@@ -404,10 +404,10 @@ TablesOf(const std::vector<ComparedCores> & labels, SpatialUnit unit)
 }
 
 void
-WriteCompareCsv(const std::filesystem::path & path, const CompareTable & table)
+WriteCompareCsv(const std::filesystem::path & path, const CompareTable & table, HeadUnits units)
 {
   TextFile file(path, tableDigits);
-  WriteHead(file, table.columns);
+  file << HeadLine(table.columns, units);
   for (const auto & row : table.rows)
   {
     for (std::size_t i = 0; i < row.size(); ++i)

@@ -171,7 +171,7 @@ inline constexpr auto kOutputRows = std::to_array<Parameter>({
     "",
     "",
     false,
-    kStages | kMeasure | kRoots | kMaps | kStraighten | kBatch,
+    kStages | kMeasure | kRoots | kMaps | kStraighten | kBatch | kCompare,
     "Give the unit of each column in the first line of tables, as in 'length [mm]'" },
   { "mapped",
     "--mapped",

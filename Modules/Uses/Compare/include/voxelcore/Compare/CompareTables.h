@@ -2,6 +2,7 @@
 // What a comparison found, as tables: each is written as .csv, stands in the report, and is what Python gets.
 
 #include "voxelcore/Base/SpatialUnit.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Compare/CentrelineOverlap.h"
 #include "voxelcore/Compare/CoreComparison.h"
 #include "voxelcore/Compare/MaskComparison.h"
@@ -77,7 +78,7 @@ TablesOf(const std::vector<ComparedCores> & labels, SpatialUnit unit);
 
 /** \throws OutputError */
 void
-WriteCompareCsv(const std::filesystem::path & path, const CompareTable & table);
+WriteCompareCsv(const std::filesystem::path & path, const CompareTable & table, HeadUnits units = {});
 
 /** What the columns of all tables mean, as JSON. */
 std::string
