@@ -1,0 +1,42 @@
+// What was dropped or chosen: files by name, and which of them the program is to open.
+
+/** Reads what a drop holds, folders too. */
+export async function filesOfDrop(transfer) {
+  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.()).filter((entry) => entry);
+  if (entries.length === 0) return [...transfer.files].map((file) => ({ name: file.name, data: file }));
+  const found = [];
+  const look = async (entry) => {
+    if (entry.isFile) {
+      const file = await new Promise((resolve, reject) => { entry.file(resolve, reject); });
+      found.push({ name: entry.fullPath.replace(/^\//, ''), data: file });
+      return;
+    }
+    const reader = entry.createReader();
+    for (;;) { // a reader gives some at a time
+      const some = await new Promise((resolve, reject) => { reader.readEntries(resolve, reject); });
+      if (some.length === 0) return;
+      for (const one of some) await look(one);
+    }
+  };
+  for (const entry of entries) await look(entry);
+  return found;
+}
+
+export function filesOfInput(input) {
+  return [...input.files].map((file) => ({ name: file.webkitRelativePath || file.name, data: file }));
+}
+
+const stem = (name) => name.replace(/\.[^./]*$/, '');
+
+/** The names among `files` that are scans by themselves: data beside a header of the same name are none. */
+export function scansAmong(files) {
+  const names = files.map(({ name }) => name).filter((name) => !/(^|\/)\./.test(name));
+  const headers = new Set(names.filter((name) => /\.(nhdr|mhd|hdr)$/i.test(name)).map(stem));
+  const isData = (name) => /\.(raw|zraw|img|bin)(\.gz)?$/i.test(name) && headers.has(stem(name.replace(/\.gz$/i, '')));
+  return names.filter((name) => !isData(name));
+}
+
+/** The name without folder and endings, for results. */
+export function baseOf(name) {
+  return name.replace(/^.*\//, '').replace(/(\.seg)?\.(nii|nrrd|nhdr|mha|mhd|tiff?|mgz|mgh|npy|hdr|img|png|stl|obj|ply|off|vtk|vti)(\.gz)?$/i, '') || 'scan';
+}
