@@ -43,7 +43,7 @@ function say(sentence) {
 }
 function fail(error) {
   const lines = error instanceof VoxelCoreError && error.errors.length > 0 ? error.errors : [error.message ?? String(error)];
-  $('failure').textContent = lines.join('\n');
+  $('failure').textContent = lines.map((line) => line.replace(/^voxelcore: /, '')).join('\n');
   $('failure').hidden = false;
   say('');
 }

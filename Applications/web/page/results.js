@@ -11,13 +11,12 @@ export function certificateWords(label) {
   if (!certificate) return null;
   const [pieces, loops, cavities] = shape.betti;
   const same = `${counted(pieces, 'piece')}, ${counted(loops, 'loop')} and ${counted(cavities, 'cavity', 'cavities')}`;
-  const says = { topology: `it has the ${same} of the shape`, enclosed: 'it lies within the shape',
-    covered: 'its balls cover the shape up to the tolerance', skeleton: 'the skeleton has them, too',
-    stand_out: 'each branch stands out from the shape' };
+  const says = { topology: `it has the shape's ${same}`, skeleton: 'so has the skeleton', enclosed: 'it lies within the shape',
+    covered: 'its balls cover the shape up to the tolerance', stand_out: 'each branch stands out from the shape' };
   const failed = Object.entries(certificate).filter(([, passed]) => passed === false).map(([what]) => what);
   if (!certificate.passed) return `${name}: the certificate failed (${failed.join(', ')}). Do not use this result.`;
   const held = Object.keys(says).filter((what) => certificate[what]).map((what) => says[what]);
-  return `${name}: certified. Checked by other code: ${held.join('; ')}.`;
+  return `${name}: certified. Checked in this run: ${held.join('; ')}.`;
 }
 
 /** Rows of a table in CSV. */
@@ -62,8 +61,7 @@ export function tableOf(name, text) {
 const kBins = 32;
 
 /** A histogram of `values`, as a figure. */
-export function histogramOf(title, values, range, unit) {
-  const { least, greatest } = range;
+export function histogramOf(title, values, { least, greatest }, unit) {
   if (!(greatest > least)) return null;
   const bins = new Array(kBins).fill(0);
   let count = 0;
@@ -73,33 +71,23 @@ export function histogramOf(title, values, range, unit) {
     ++count;
   }
   const most = Math.max(...bins);
-  const [width, height, left, bottom] = [640, 150, 8, 24];
-  const step = (width - 2 * left) / kBins;
   const figure = element('figure');
-  figure.style.margin = '0';
   figure.append(element('figcaption', { textContent: `${title} at ${counted(count, 'point')}` }));
   const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-  const draw = (name, attributes, text) => {
-    const one = document.createElementNS(svg.namespaceURI, name);
-    for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
-    if (text !== undefined) one.textContent = text;
-    svg.append(one);
-    return one;
-  };
-  svg.setAttribute('viewBox', `0 0 ${width} ${height + bottom}`);
-  svg.setAttribute('width', '100%');
+  svg.setAttribute('viewBox', `0 0 ${kBins} 100`);
+  svg.setAttribute('preserveAspectRatio', 'none');
   svg.setAttribute('role', 'img');
   svg.setAttribute('aria-label', `${title}: from ${number(least)} to ${number(greatest)} ${unit}`);
   bins.forEach((bin, i) => {
-    const tall = bin / most * (height - 6);
-    draw('rect', { x: left + i * step + 0.5, y: height - tall, width: step - 1, height: tall });
+    const bar = document.createElementNS(svg.namespaceURI, 'rect');
+    const tall = 100 * bin / most;
+    for (const [name, value] of Object.entries({ x: i + 0.04, y: 100 - tall, width: 0.92, height: tall })) bar.setAttribute(name, value);
+    svg.append(bar);
   });
-  draw('line', { x1: left, y1: height, x2: width - left, y2: height });
-  for (const [part, anchor] of [[0, 'start'], [0.5, 'middle'], [1, 'end']]) {
-    const value = least + part * (greatest - least);
-    draw('text', { x: left + part * (width - 2 * left), y: height + 17, 'text-anchor': anchor },
-      number(value) + (part === 1 ? ` ${unit}` : ''));
+  const axis = element('div', { className: 'axis' });
+  for (const part of [0, 0.5, 1]) {
+    axis.append(element('span', { textContent: `${number(least + part * (greatest - least))} ${part === 1 ? unit : ''}` }));
   }
-  figure.append(svg);
+  figure.append(svg, axis);
   return figure;
 }

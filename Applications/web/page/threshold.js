@@ -56,8 +56,11 @@ if (Page && Page.view) (function () {
     label.htmlFor = said.htmlFor = slider.id;
     label.textContent = name + ' at least';
     said.style.gridColumn = '2';
+    // Tolerances have a few large values far from the rest: equal steps of the slider are equal factors.
+    const byFactors = name === 'Tolerance' && range.least > 0, part = () => slider.value / 1000;
     const tell = () => {
-      const value = range.least + (range.greatest - range.least) * slider.value / 1000;
+      const value = byFactors ? range.least * Math.pow(range.greatest / range.least, part())
+        : range.least + (range.greatest - range.least) * part();
       limits[name] = slider.value > 0 ? value : 0;
       said.textContent = Page.lengthText(value, 3);
       slider.setAttribute('aria-valuetext', said.textContent);
