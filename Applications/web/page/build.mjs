@@ -22,9 +22,9 @@ if (!fs.existsSync(path.join(tools, 'node_modules'))) {
 }
 const { buildSync } = await import(path.join(tools, 'node_modules/esbuild/lib/main.js'));
 
-const bundle = (entry) => buildSync({ entryPoints: [entry], bundle: true, minify: true, format: 'esm', write: false,
-  target: 'es2022', external: ['node:*', 'module', 'fs', 'path', 'url', 'crypto', 'worker_threads'], nodePaths: [path.join(tools, 'node_modules')],
-  alias: { voxelcore: path.join(packageFolder, 'index.js') }, logLevel: 'error', legalComments: 'none' }).outputFiles[0].text;
+const bundle = (entry, format) => buildSync({ entryPoints: [entry], bundle: true, minify: true, format, write: false,
+  target: 'es2022', external: ['node:*', 'module', 'fs', 'path', 'url', 'crypto', 'worker_threads'],
+  define: { 'import.meta.url': '""' }, nodePaths: [path.join(tools, 'node_modules')], alias: { voxelcore: path.join(packageFolder, 'index.js') }, logLevel: 'error', legalComments: 'none' }).outputFiles[0].text;
 
 // The viewer of the offline page, and what this page has besides.
 const display = path.join(root, 'Modules/Models/Display/src/page');
@@ -66,14 +66,14 @@ function lengthColors() {
 
 const parts = {
   'voxelcore.wasm': fs.readFileSync(path.join(packageFolder, 'voxelcore.wasm')),
-  'worker.js': bundle(path.join(packageFolder, 'worker.js')),
+  'worker.js': bundle(path.join(packageFolder, 'worker.js'), 'iife'),
   'viewer.html': viewer,
   'presets.json': presets,
   'colors.json': JSON.stringify(lengthColors()),
   'sample-root.nrrd': fs.readFileSync(path.join(root, 'Data/root.nrrd')),
 };
 const packed = Object.fromEntries(Object.entries(parts).map(([name, data]) => [name, zlib.gzipSync(data, { level: 9 })]));
-const main = bundle(path.join(here, 'main.js'));
+const main = bundle(path.join(here, 'main.js'), 'esm');
 const { version } = JSON.parse(read(packageFolder, 'package.json'));
 const html = (marks) => Object.entries({ '@VERSION@': version, ...marks })
   .reduce((text, [mark, value]) => text.replace(mark, () => value), read(here, 'index.html'));

@@ -366,7 +366,7 @@ async function start() {
   viewerTemplate = template;
   colors = JSON.parse(map);
   const place = URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }));
-  configure({ wasm, worker: () => new Worker(place, { type: 'module' }) });
+  configure({ wasm, worker: () => new Worker(place) }); // a classic one: a page from disk may start no other
   await prepare();
   document.body.dataset.state = 'ready';
   if (navigator.serviceWorker && document.querySelector('link[rel="manifest"]')) {
