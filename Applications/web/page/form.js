@@ -4,10 +4,13 @@ const kinds = new Set(['text', 'integer', 'real', 'choice', 'flag']);
 const ours = new Set(['labels', 'force', 'threads', 'progress', 'quiet', 'json', 'memory', 'html-triangles', 'engine',
   'cross-check', 'blocks', 'block', 'block-size', 'level', 'soma', 'within']); // of files and of the machine, or this page's
 
+/** Of which commands a row is: the curve skeleton is a run of its own here, so that `core` has none of its options. */
+const isOf = (row, command) => row.commands.includes(command) && !(command === 'core' && row.group === 'Skeleton');
+
 /** Rows of the table that a page can ask for: an option, and the commands it is of. */
 export function rowsOf(table, commands) {
   return table.options.filter((row) => kinds.has(row.kind) && row.flags !== '' && !ours.has(row.name) &&
-    row.commands.some((name) => commands.includes(name)));
+    commands.some((name) => isOf(row, name)));
 }
 
 const keyOf = (row) => `${row.name}/${row.commands.join('+')}`;
@@ -37,7 +40,7 @@ export class Form {
     const label = Object.assign(document.createElement('label'), { htmlFor: id });
     const words = row.name.replaceAll('-', ' ');
     label.textContent = words[0].toUpperCase() + words.slice(1) +
-      (twice ? ` (${row.commands.filter((name) => commands.includes(name)).join(', ')})` : '');
+      (twice ? ` (${commands.filter((name) => isOf(row, name)).join(', ')})` : '');
     label.title = row.description;
     const note = Object.assign(document.createElement('p'), { className: 'note', id: `${id}-note`, textContent: row.description });
     let input;
@@ -70,7 +73,7 @@ export class Form {
   /** Shows the fields of these commands alone. */
   show(commands) {
     for (const { row, elements } of this.fields.values()) {
-      const hidden = !row.commands.some((name) => commands.includes(name));
+      const hidden = !commands.some((name) => isOf(row, name));
       for (const element of elements) element.hidden = hidden;
     }
     for (const group of this.groups.values()) {
@@ -81,7 +84,7 @@ export class Form {
   /** Takes the options of a preset, and the defaults for all the rest. */
   fill(steps) {
     for (const { row, input } of this.fields.values()) {
-      const step = steps.find(([command, options]) => row.commands.includes(command) && options[row.name] !== undefined);
+      const step = steps.find(([command, options]) => isOf(row, command) && options[row.name] !== undefined);
       const value = step?.[1][row.name];
       if (row.kind === 'flag') {
         input.checked = value === true;
@@ -95,7 +98,7 @@ export class Form {
   argumentsOf(command, group) {
     const found = [];
     for (const { row, input } of this.fields.values()) {
-      if (!row.commands.includes(command) || (group && row.group !== group)) continue;
+      if (!isOf(row, command) || (group && row.group !== group)) continue;
       if (row.kind === 'flag') {
         if (input.checked) found.push(`--${row.name}`);
       } else if (input.value.trim() !== '') {
