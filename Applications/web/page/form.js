@@ -1,16 +1,34 @@
 // Options as fields, made of the program's own table: names, defaults and words are those of --help.
 
 const kinds = new Set(['text', 'integer', 'real', 'choice', 'flag']);
-const ours = new Set(['labels', 'force', 'threads', 'progress', 'quiet', 'json', 'memory', 'html-triangles', 'engine',
-  'cross-check', 'blocks', 'block', 'block-size', 'level', 'soma', 'within']); // of files and of the machine, or this page's
+const ours = new Set([
+  'labels',
+  'force',
+  'threads',
+  'progress',
+  'quiet',
+  'json',
+  'memory',
+  'html-triangles',
+  'engine',
+  'cross-check',
+  'blocks',
+  'block',
+  'block-size',
+  'level',
+  'soma',
+  'within',
+]); // of files and of the machine, or this page's
 
 /** Of which commands a row is: the curve skeleton is a run of its own here, so that `core` has none of its options. */
 const isOf = (row, command) => row.commands.includes(command) && !(command === 'core' && row.group === 'Skeleton');
 
 /** Rows of the table that a page can ask for: an option, and the commands it is of. */
 export function rowsOf(table, commands) {
-  return table.options.filter((row) => kinds.has(row.kind) && row.flags !== '' && !ours.has(row.name) &&
-    commands.some((name) => isOf(row, name)));
+  return table.options.filter(
+    (row) =>
+      kinds.has(row.kind) && row.flags !== '' && !ours.has(row.name) && commands.some((name) => isOf(row, name)),
+  );
 }
 
 const keyOf = (row) => `${row.name}/${row.commands.join('+')}`;
@@ -30,7 +48,10 @@ export class Form {
         groups.set(row.group, group);
         more.append(group);
       }
-      this.fields.set(keyOf(row), this.#field(row, front ? main : groups.get(row.group), front, twice(row), commands));
+      this.fields.set(
+        keyOf(row),
+        this.#field(row, front ? main : groups.get(row.group), front, twice(row), commands),
+      );
     }
     this.groups = groups;
   }
@@ -39,10 +60,16 @@ export class Form {
     const id = `option-${this.fields.size}`;
     const label = Object.assign(document.createElement('label'), { htmlFor: id });
     const words = row.name.replaceAll('-', ' ');
-    label.textContent = words[0].toUpperCase() + words.slice(1) +
+    label.textContent =
+      words[0].toUpperCase() +
+      words.slice(1) +
       (twice ? ` (${commands.filter((name) => isOf(row, name)).join(', ')})` : '');
     label.title = row.description;
-    const note = Object.assign(document.createElement('p'), { className: 'note', id: `${id}-note`, textContent: row.description });
+    const note = Object.assign(document.createElement('p'), {
+      className: 'note',
+      id: `${id}-note`,
+      textContent: row.description,
+    });
     let input;
     const elements = [label];
     if (row.kind === 'flag') {
@@ -55,8 +82,12 @@ export class Form {
       for (const word of row.placeholder.split('|')) input.add(new Option(word, word === row.default ? '' : word));
       elements.push(input);
     } else {
-      input = Object.assign(document.createElement('input'), { type: 'text', placeholder: row.default || row.placeholder,
-        autocomplete: 'off', spellcheck: false });
+      input = Object.assign(document.createElement('input'), {
+        type: 'text',
+        placeholder: row.default || row.placeholder,
+        autocomplete: 'off',
+        spellcheck: false,
+      });
       elements.push(input);
     }
     input.id = id;

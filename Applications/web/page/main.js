@@ -14,14 +14,32 @@ const number = (value) => value.toLocaleString('en', { maximumSignificantDigits:
 
 // What can be had, and the files each command writes besides its report.
 const wanted = {
-  core: 'Medial surface', skeleton: 'Curve skeleton', thickness: 'Local thickness', sheets: 'Sheets and rods',
+  core: 'Medial surface',
+  skeleton: 'Curve skeleton',
+  thickness: 'Local thickness',
+  sheets: 'Sheets and rods',
   roots: 'Roots told apart',
 };
 const outputs = {
   core: (base) => ['-o', `${base}_core.vtp`, '--report', `${base}_core.json`, '--table', `${base}_core.csv`],
-  skeleton: (base) => ['-o', `${base}_skeleton.vtp`, '--report', `${base}_skeleton.json`, '--table', `${base}_skeleton.csv`],
-  thickness: (base) => ['-o', `${base}_thickness.nrrd`, '--report', `${base}_thickness.json`, '--table',
-    `${base}_thickness.csv`, '--medial', `${base}_thickness.vtp`],
+  skeleton: (base) => [
+    '-o',
+    `${base}_skeleton.vtp`,
+    '--report',
+    `${base}_skeleton.json`,
+    '--table',
+    `${base}_skeleton.csv`,
+  ],
+  thickness: (base) => [
+    '-o',
+    `${base}_thickness.nrrd`,
+    '--report',
+    `${base}_thickness.json`,
+    '--table',
+    `${base}_thickness.csv`,
+    '--medial',
+    `${base}_thickness.vtp`,
+  ],
   sheets: (base) => ['-o', `${base}_sheets.vtp`, '--report', `${base}_sheets.json`, '--table', `${base}_sheets.csv`],
   roots: (base) => ['-o', `${base}_roots`, '--no-pictures'],
 };
@@ -42,7 +60,8 @@ function say(sentence) {
   $('said').textContent = sentence;
 }
 function fail(error) {
-  const lines = error instanceof VoxelCoreError && error.errors.length > 0 ? error.errors : [error.message ?? String(error)];
+  const lines =
+    error instanceof VoxelCoreError && error.errors.length > 0 ? error.errors : [error.message ?? String(error)];
   $('failure').textContent = lines.map((line) => line.replace(/^voxelcore: /, '')).join('\n');
   $('failure').hidden = false;
   say('');
@@ -59,7 +78,8 @@ async function take(given) {
   if (given.length === 0) return;
   files = given;
   const scans = scansAmong(files);
-  const folder = files[0].name.includes('/') && scans.every((name) => /\.(dcm|ima)$/i.test(name) || !/\.\w+$/.test(name));
+  const folder =
+    files[0].name.includes('/') && scans.every((name) => /\.(dcm|ima)$/i.test(name) || !/\.\w+$/.test(name));
   $('main-file').textContent = '';
   for (const name of folder ? [files[0].name.split('/')[0]] : scans) $('main-file').add(new Option(name, name));
   $('which').hidden = $('main-file').options.length < 2;
@@ -100,10 +120,14 @@ async function look() {
   try {
     const info = JSON.parse((await program(['info', '--json', ...asRead()], ['--', mainFile()], { signal })).text);
     ({ labels } = info);
-    $('what').textContent = `${info.format}, ${info.pixel_type}: ${info.size.join(' × ')} voxels of ` +
-      `${info.spacing_mm.map((side) => number(side)).join(' × ')} mm; ${labels.length === 1 ? '1 label' : `${labels.length} labels`}.`;
+    $('what').textContent =
+      `${info.format}, ${info.pixel_type}: ${info.size.join(' × ')} voxels of ` +
+      `${info.spacing_mm.map((side) => number(side)).join(' × ')} mm; ` +
+      `${labels.length} ${labels.length === 1 ? 'label' : 'labels'}.`;
     const unusual = [...info.warnings, ...info.notes];
-    $('diagnosis').replaceChildren(...unusual.map((line) => Object.assign(document.createElement('li'), { textContent: line })));
+    $('diagnosis').replaceChildren(
+      ...unusual.map((line) => Object.assign(document.createElement('li'), { textContent: line })),
+    );
     $('diagnosis').hidden = unusual.length === 0;
     showLabels();
     $('words').hidden = false;
@@ -117,7 +141,11 @@ async function look() {
 }
 
 function program(before, after, how) {
-  return run([...before, ...after], files.map(({ name, data }) => [name, data]), how);
+  return run(
+    [...before, ...after],
+    files.map(({ name, data }) => [name, data]),
+    how,
+  );
 }
 
 $('words').addEventListener('toggle', async () => {
@@ -144,7 +172,12 @@ document.addEventListener('dragleave', (event) => {
 document.addEventListener('drop', async (event) => {
   event.preventDefault();
   $('drop').classList.remove('over');
-  await take(await filesOfDrop(event.dataTransfer).catch((error) => { fail(error); return []; }));
+  await take(
+    await filesOfDrop(event.dataTransfer).catch((error) => {
+      fail(error);
+      return [];
+    }),
+  );
 });
 $('choose').addEventListener('click', () => $('files').click());
 $('choose-folder').addEventListener('click', () => $('folder').click());
@@ -160,12 +193,18 @@ $('sample').addEventListener('click', async () => {
 $('main-file').addEventListener('change', look);
 
 $('find-label').addEventListener('input', () => {
-  const words = $('find-label').value.toLowerCase().split(/\s+/).filter((word) => word);
+  const words = $('find-label')
+    .value.toLowerCase()
+    .split(/\s+/)
+    .filter((word) => word);
   for (const { row, name, label } of labels) {
     row.hidden = !words.every((word) => name.toLowerCase().includes(word) || String(label) === word);
   }
 });
-for (const [id, checked] of [['all-labels', true], ['no-labels', false]]) {
+for (const [id, checked] of [
+  ['all-labels', true],
+  ['no-labels', false],
+]) {
   $(id).addEventListener('click', () => {
     for (const label of labels) if (!label.row.hidden) label.box.checked = checked;
   });
@@ -196,8 +235,12 @@ async function prepare() {
     label.append(box, words);
     $('commands').append(label);
   }
-  form = new Form(options, { main: $('options'), more: $('more'), commands: Object.keys(wanted),
-    inFront: new Set([...usual, 'threshold', 'spacing']) });
+  form = new Form(options, {
+    main: $('options'),
+    more: $('more'),
+    commands: Object.keys(wanted),
+    inFront: new Set([...usual, 'threshold', 'spacing']),
+  });
   for (const name of Object.keys(presets)) {
     const label = document.createElement('label');
     const radio = Object.assign(document.createElement('input'), { type: 'radio', name: 'preset', value: name });
@@ -238,12 +281,18 @@ $('work').addEventListener('submit', async (event) => {
   const start = performance.now();
   const base = baseOf(mainFile());
   const one = async (command) => {
-    const result = await program([command, ...outputs[command](base), ...chosenLabels(), ...form.argumentsOf(command)],
-      ['--', mainFile()], { signal, onProgress(stage, fraction) {
-        done.set(command, Math.max(done.get(command), fraction));
-        $('progress').value = [...done.values()].reduce((sum, part) => sum + part, 0) / commands.length;
-        $('stage').textContent = `${wanted[command]}: ${stage}`;
-      } });
+    const result = await program(
+      [command, ...outputs[command](base), ...chosenLabels(), ...form.argumentsOf(command)],
+      ['--', mainFile()],
+      {
+        signal,
+        onProgress(stage, fraction) {
+          done.set(command, Math.max(done.get(command), fraction));
+          $('progress').value = [...done.values()].reduce((sum, part) => sum + part, 0) / commands.length;
+          $('stage').textContent = `${wanted[command]}: ${stage}`;
+        },
+      },
+    );
     return [command, result];
   };
   try {
@@ -275,7 +324,8 @@ async function inTurn(commands, one, signal) {
   const left = [...commands];
   const made = [];
   const next = async () => {
-    for (let command = left.shift(); command !== undefined && !signal.aborted; command = left.shift()) made.push(await one(command));
+    for (let command = left.shift(); command !== undefined && !signal.aborted; command = left.shift())
+      made.push(await one(command));
   };
   await Promise.all(Array.from({ length: Math.min(left.length, navigator.hardwareConcurrency || 1) }, next));
   return made.sort(([a], [b]) => commands.indexOf(a) - commands.indexOf(b));
@@ -286,7 +336,10 @@ const textOf = (bytes) => new TextDecoder().decode(bytes);
 const links = [];
 
 function download(name, data, type = 'application/octet-stream') {
-  const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(new Blob([data], { type })), download: name });
+  const link = Object.assign(document.createElement('a'), {
+    href: URL.createObjectURL(new Blob([data], { type })),
+    download: name,
+  });
   links.push(link.href);
   return link;
 }
@@ -297,8 +350,10 @@ async function show(made, base) {
   const words = [];
   const names = new Map(labels.map(({ label, name }) => [label, name]));
   for (const [command, result] of made) {
-    const report = Object.entries(result.files).find(([name]) => name.endsWith(command === 'roots' ? 'report.json' : `_${command}.json`));
-    for (const label of report ? JSON.parse(textOf(report[1])).labels ?? [] : []) {
+    const report = Object.entries(result.files).find(([name]) =>
+      name.endsWith(command === 'roots' ? 'report.json' : `_${command}.json`),
+    );
+    for (const label of report ? (JSON.parse(textOf(report[1])).labels ?? []) : []) {
       const sentence = certificateWords(label);
       if (sentence) words.push(`${wanted[command]}, ${sentence}`);
       names.set(label.label, label.name);
@@ -311,8 +366,11 @@ async function show(made, base) {
   $('warnings').hidden = warnings.length === 0;
 
   // Tables and histograms.
-  $('tables').replaceChildren(...Object.entries(results).filter(([name]) => name.endsWith('.csv'))
-    .map(([name, bytes]) => tableOf(name, textOf(bytes))));
+  $('tables').replaceChildren(
+    ...Object.entries(results)
+      .filter(([name]) => name.endsWith('.csv'))
+      .map(([name, bytes]) => tableOf(name, textOf(bytes))),
+  );
   const find = (ending) => Object.keys(results).find((name) => name.endsWith(ending));
   const thickness = find('_thickness.vtp');
   const surface = thickness ?? find('_core.vtp') ?? find('_sheets.vtp') ?? find('_roots/medial.vtp');
@@ -341,13 +399,17 @@ async function show(made, base) {
     $('viewer').srcdoc = page;
     $('offline').onclick = () => download(`${base}.html`, page, 'text/html').click();
   }
-  $('downloads').replaceChildren(...Object.entries(results).sort().map(([name, bytes]) => {
-    const row = document.createElement('li');
-    const link = download(name.replaceAll('/', '_'), bytes);
-    link.textContent = name;
-    row.append(link, ` ${number(bytes.length / 1000)} kB`);
-    return row;
-  }));
+  $('downloads').replaceChildren(
+    ...Object.entries(results)
+      .sort()
+      .map(([name, bytes]) => {
+        const row = document.createElement('li');
+        const link = download(name.replaceAll('/', '_'), bytes);
+        link.textContent = name;
+        row.append(link, ` ${number(bytes.length / 1000)} kB`);
+        return row;
+      }),
+  );
 }
 
 $('zip').addEventListener('click', () => {
@@ -361,8 +423,12 @@ $('large').addEventListener('click', () => {
 
 // ---- start ----
 async function start() {
-  const [wasm, worker, template, map] = await Promise.all(
-    [part('voxelcore.wasm'), textPart('worker.js'), textPart('viewer.html'), textPart('colors.json')]);
+  const [wasm, worker, template, map] = await Promise.all([
+    part('voxelcore.wasm'),
+    textPart('worker.js'),
+    textPart('viewer.html'),
+    textPart('colors.json'),
+  ]);
   viewerTemplate = template;
   colors = JSON.parse(map);
   const place = URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }));

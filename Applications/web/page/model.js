@@ -31,7 +31,8 @@ function adler32(bytes) {
   let a = 1;
   let b = 0;
   for (let at = 0; at < bytes.length;) {
-    for (const end = Math.min(at + 3800, bytes.length); at < end; ++at) { // no sum leaves 32 bits
+    for (const end = Math.min(at + 3800, bytes.length); at < end; ++at) {
+      // no sum leaves 32 bits
       a += bytes[at];
       b += a;
     }
@@ -71,8 +72,9 @@ function lengthsOf(mesh) {
     if (size === 1) {
       found[name] = values;
     } else {
-      found[name] = Float64Array.from({ length: values.length / size },
-        (_, i) => Math.hypot(...values.subarray(size * i, size * i + size)));
+      found[name] = Float64Array.from({ length: values.length / size }, (_, i) =>
+        Math.hypot(...values.subarray(size * i, size * i + size)),
+      );
     }
   }
   return found;
@@ -108,7 +110,8 @@ function shownPart(mesh, cells, kind) {
     }
     return found;
   };
-  const corners = (of, i) => Array.from(mesh[of].connectivity.subarray(mesh[of].offsets[i], mesh[of].offsets[i + 1]), point);
+  const corners = (of, i) =>
+    Array.from(mesh[of].connectivity.subarray(mesh[of].offsets[i], mesh[of].offsets[i + 1]), point);
   const heights = kind === 'medial' ? mesh.cellArrays.Tolerance : undefined;
   const firstLine = mesh.verts.offsets.length - 1;
   const firstPoly = firstLine + mesh.lines.offsets.length - 1;
@@ -153,7 +156,10 @@ function shownPart(mesh, cells, kind) {
 }
 
 const kNames = {
-  Tolerance: 'Tolerance', RadiusMargin: 'Radius margin', Displacement: 'Displacement', SectionRadius: 'Section radius',
+  Tolerance: 'Tolerance',
+  RadiusMargin: 'Radius margin',
+  Displacement: 'Displacement',
+  SectionRadius: 'Section radius',
   MaximumInscribedSphereRadius: 'Inscribed radius',
 };
 
@@ -170,7 +176,11 @@ function colorOf(index) {
 
 function unitsOf(unit) {
   if (unit !== 'mm') return [{ name: unit, size: 1, from: 0 }];
-  return [{ name: 'mm', size: 1, from: 0.1 }, { name: 'µm', size: 1e-3, from: 1e-4 }, { name: 'nm', size: 1e-6, from: 0 }];
+  return [
+    { name: 'mm', size: 1, from: 0.1 },
+    { name: 'µm', size: 1e-3, from: 1e-4 },
+    { name: 'nm', size: 1e-6, from: 0 },
+  ];
 }
 
 /**
@@ -187,64 +197,100 @@ export function pageModel(meshes, { title, names, map }) {
     if (range) ranges[name] = range;
   }
   const order = ['Radius', 'Lambda', 'ErosionThickness', 'Thickness'];
-  const arrays = [...order.filter((name) => ranges[name]), ...Object.keys(ranges).filter((name) => !order.includes(name))];
-  const code = ({ least, greatest }, value) => (Number.isFinite(value)
-    ? Math.round((Math.min(Math.max(value, least), greatest) - least) / Math.max(greatest - least, 1e-300) * kMost) : 65535);
+  const arrays = [
+    ...order.filter((name) => ranges[name]),
+    ...Object.keys(ranges).filter((name) => !order.includes(name)),
+  ];
+  const code = ({ least, greatest }, value) =>
+    Number.isFinite(value)
+      ? Math.round(
+          ((Math.min(Math.max(value, least), greatest) - least) / Math.max(greatest - least, 1e-300)) * kMost,
+        )
+      : 65535;
   const whole = new Set(each.flatMap(({ cells }) => [...cells.keys()]));
   let triangles = 0;
-  const labels = [...whole].sort((a, b) => a - b).map((label, index) => {
-    const made = { name: names.get(label) ?? `label-${label}`, label, color: colorOf(index), ranges: {} };
-    const own = {};
-    for (const { kind, mesh, lengths, cells } of each) {
-      if (!cells.has(label)) continue;
-      const part = shownPart(mesh, cells.get(label), kind);
-      const { origin } = part;
-      if (origin.length === 0) continue;
-      triangles += part.triangles.length / 3;
-      const low = [0, 1, 2].map((k) => origin.reduce((least, i) => Math.min(least, mesh.points[3 * i + k]), Infinity));
-      const high = [0, 1, 2].map((k) => origin.reduce((most, i) => Math.max(most, mesh.points[3 * i + k]), -Infinity));
-      const points = new Uint16Array(3 * origin.length);
-      origin.forEach((old, i) => {
-        for (let k = 0; k < 3; ++k) {
-          const side = high[k] > low[k] ? high[k] - low[k] : 1;
-          points[3 * i + k] = Math.round((mesh.points[3 * old + k] - low[k]) / side * 65535);
+  const labels = [...whole]
+    .sort((a, b) => a - b)
+    .map((label, index) => {
+      const made = { name: names.get(label) ?? `label-${label}`, label, color: colorOf(index), ranges: {} };
+      const own = {};
+      for (const { kind, mesh, lengths, cells } of each) {
+        if (!cells.has(label)) continue;
+        const part = shownPart(mesh, cells.get(label), kind);
+        const { origin } = part;
+        if (origin.length === 0) continue;
+        triangles += part.triangles.length / 3;
+        const low = [0, 1, 2].map((k) =>
+          origin.reduce((least, i) => Math.min(least, mesh.points[3 * i + k]), Infinity),
+        );
+        const high = [0, 1, 2].map((k) =>
+          origin.reduce((most, i) => Math.max(most, mesh.points[3 * i + k]), -Infinity),
+        );
+        const points = new Uint16Array(3 * origin.length);
+        origin.forEach((old, i) => {
+          for (let k = 0; k < 3; ++k) {
+            const side = high[k] > low[k] ? high[k] - low[k] : 1;
+            points[3 * i + k] = Math.round(((mesh.points[3 * old + k] - low[k]) / side) * 65535);
+          }
+        });
+        const shown = { low, high, points: numbers.add(points) };
+        for (const name of ['triangles', 'segments', 'lines', 'dots'])
+          shown[name] = numbers.indices(part[name], origin.length);
+        shown.offsets = numbers.add(Uint32Array.from(part.offsets));
+        shown.values = {};
+        for (const name of arrays) {
+          if (!lengths[name]) continue;
+          const values = origin.map((i) => lengths[name][i]);
+          shown.values[name] = numbers.add(Uint16Array.from(values, (value) => code(ranges[name], value)));
+          (own[name] ??= []).push(values);
         }
-      });
-      const shown = { low, high, points: numbers.add(points) };
-      for (const name of ['triangles', 'segments', 'lines', 'dots']) shown[name] = numbers.indices(part[name], origin.length);
-      shown.offsets = numbers.add(Uint32Array.from(part.offsets));
-      shown.values = {};
-      for (const name of arrays) {
-        if (!lengths[name]) continue;
-        const values = origin.map((i) => lengths[name][i]);
-        shown.values[name] = numbers.add(Uint16Array.from(values, (value) => code(ranges[name], value)));
-        (own[name] ??= []).push(values);
+        if (part.heights && ranges.Tolerance) {
+          const codes = (values) => numbers.add(Uint16Array.from(values, (value) => code(ranges.Tolerance, value)));
+          const { triangles: faces, segments, dots, covers } = part.heights;
+          shown.heights = {
+            triangles: codes(faces),
+            segments: codes(segments),
+            dots: codes(dots),
+            // 0: on no face
+            covers: numbers.add(
+              Uint16Array.from(covers, (value) =>
+                value === -Infinity ? 0 : Math.min(code(ranges.Tolerance, value), kMost) + 1,
+              ),
+            ),
+          };
+        }
+        if (kind === 'curves') {
+          const ids = mesh.cellArrays.BranchId;
+          const first = mesh.verts.offsets.length - 1;
+          shown.names = cells.get(label).lines.map((i) => `branch ${ids ? ids[first + i] : i}`);
+        }
+        made[kind] = shown;
       }
-      if (part.heights && ranges.Tolerance) {
-        const codes = (values) => numbers.add(Uint16Array.from(values, (value) => code(ranges.Tolerance, value)));
-        const { triangles: faces, segments, dots, covers } = part.heights;
-        shown.heights = { triangles: codes(faces), segments: codes(segments), dots: codes(dots),
-          // 0: on no face
-          covers: numbers.add(Uint16Array.from(covers, (value) => (value === -Infinity ? 0
-            : Math.min(code(ranges.Tolerance, value), kMost) + 1))) };
-      }
-      if (kind === 'curves') {
-        const ids = mesh.cellArrays.BranchId;
-        const first = mesh.verts.offsets.length - 1;
-        shown.names = cells.get(label).lines.map((i) => `branch ${ids ? ids[first + i] : i}`);
-      }
-      made[kind] = shown;
-    }
-    for (const [name, lists] of Object.entries(own)) made.ranges[name] = rangeOf(lists) ?? ranges[name];
-    return made;
-  });
+      for (const [name, lists] of Object.entries(own)) made.ranges[name] = rangeOf(lists) ?? ranges[name];
+      return made;
+    });
   const bytes = numbers.all();
   const { fields } = each[0].mesh;
   const model = {
-    title, anatomical: fields.SPACE?.[0] === 'LPS', byLabel: labels.length > 1, groups: '',
-    axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], units: unitsOf(fields.Units?.[0] ?? 'mm'), bytes: bytes.length,
-    adler32: adler32(bytes), map, names: kNames, ranges: Object.fromEntries(arrays.map((name) => [name, ranges[name]])),
-    ownRanges: [], triangles, allTriangles: triangles, labels,
+    title,
+    anatomical: fields.SPACE?.[0] === 'LPS',
+    byLabel: labels.length > 1,
+    groups: '',
+    axes: [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ],
+    units: unitsOf(fields.Units?.[0] ?? 'mm'),
+    bytes: bytes.length,
+    adler32: adler32(bytes),
+    map,
+    names: kNames,
+    ranges: Object.fromEntries(arrays.map((name) => [name, ranges[name]])),
+    ownRanges: [],
+    triangles,
+    allTriangles: triangles,
+    labels,
   };
   return { json: JSON.stringify(model).replaceAll('<', '\\u003c'), numbers: base64(bytes) };
 }

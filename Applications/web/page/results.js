@@ -11,11 +11,20 @@ export function certificateWords(label) {
   if (!certificate) return null;
   const [pieces, loops, cavities] = shape.betti;
   const same = `${counted(pieces, 'piece')}, ${counted(loops, 'loop')} and ${counted(cavities, 'cavity', 'cavities')}`;
-  const says = { topology: `it has the shape's ${same}`, skeleton: 'so has the skeleton', enclosed: 'it lies within the shape',
-    covered: 'its balls cover the shape up to the tolerance', stand_out: 'each branch stands out from the shape' };
-  const failed = Object.entries(certificate).filter(([, passed]) => passed === false).map(([what]) => what);
+  const says = {
+    topology: `it has the shape's ${same}`,
+    skeleton: 'so has the skeleton',
+    enclosed: 'it lies within the shape',
+    covered: 'its balls cover the shape up to the tolerance',
+    stand_out: 'each branch stands out from the shape',
+  };
+  const failed = Object.entries(certificate)
+    .filter(([, passed]) => passed === false)
+    .map(([what]) => what);
   if (!certificate.passed) return `${name}: the certificate failed (${failed.join(', ')}). Do not use this result.`;
-  const held = Object.keys(says).filter((what) => certificate[what]).map((what) => says[what]);
+  const held = Object.keys(says)
+    .filter((what) => certificate[what])
+    .map((what) => says[what]);
   return `${name}: certified. Checked in this run: ${held.join('; ')}.`;
 }
 
@@ -41,13 +50,20 @@ export function tableOf(name, text) {
   scroll.setAttribute('aria-label', name);
   const table = element('table');
   const top = table.createTHead().insertRow();
-  for (const title of head) top.append(element('th', { scope: 'col', textContent: title.replaceAll('_', ' ') }));
+  head.forEach((title, i) => {
+    const isNumber = Number.isFinite(Number(rows[0]?.[i] || 'none'));
+    top.append(
+      element('th', { scope: 'col', className: isNumber ? 'n' : '', textContent: title.replaceAll('_', ' ') }),
+    );
+  });
   const body = table.createTBody();
   for (const row of rows.slice(0, kMostRows)) {
     const line = body.insertRow();
     for (const cell of row) {
       const isNumber = cell !== '' && Number.isFinite(Number(cell));
-      line.append(element('td', { textContent: isNumber ? number(cell) : cell, title: cell, className: isNumber ? 'n' : '' }));
+      line.append(
+        element('td', { textContent: isNumber ? number(cell) : cell, title: cell, className: isNumber ? 'n' : '' }),
+      );
     }
   }
   scroll.append(table);
@@ -67,7 +83,7 @@ export function histogramOf(title, values, { least, greatest }, unit) {
   let count = 0;
   for (const value of values) {
     if (!Number.isFinite(value)) continue;
-    ++bins[Math.min(kBins - 1, Math.floor((value - least) / (greatest - least) * kBins))];
+    ++bins[Math.min(kBins - 1, Math.floor(((value - least) / (greatest - least)) * kBins))];
     ++count;
   }
   const most = Math.max(...bins);
@@ -80,13 +96,16 @@ export function histogramOf(title, values, { least, greatest }, unit) {
   svg.setAttribute('aria-label', `${title}: from ${number(least)} to ${number(greatest)} ${unit}`);
   bins.forEach((bin, i) => {
     const bar = document.createElementNS(svg.namespaceURI, 'rect');
-    const tall = 100 * bin / most;
-    for (const [name, value] of Object.entries({ x: i + 0.04, y: 100 - tall, width: 0.92, height: tall })) bar.setAttribute(name, value);
+    const tall = (100 * bin) / most;
+    for (const [name, value] of Object.entries({ x: i + 0.04, y: 100 - tall, width: 0.92, height: tall }))
+      bar.setAttribute(name, value);
     svg.append(bar);
   });
   const axis = element('div', { className: 'axis' });
   for (const part of [0, 0.5, 1]) {
-    axis.append(element('span', { textContent: `${number(least + part * (greatest - least))} ${part === 1 ? unit : ''}` }));
+    axis.append(
+      element('span', { textContent: `${number(least + part * (greatest - least))} ${part === 1 ? unit : ''}` }),
+    );
   }
   figure.append(svg, axis);
   return figure;

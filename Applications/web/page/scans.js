@@ -7,13 +7,18 @@ export async function filesOfDrop(transfer) {
   const found = [];
   const look = async (entry) => {
     if (entry.isFile) {
-      const file = await new Promise((resolve, reject) => { entry.file(resolve, reject); });
+      const file = await new Promise((resolve, reject) => {
+        entry.file(resolve, reject);
+      });
       found.push({ name: entry.fullPath.replace(/^\//, ''), data: file });
       return;
     }
     const reader = entry.createReader();
-    for (;;) { // a reader gives some at a time
-      const some = await new Promise((resolve, reject) => { reader.readEntries(resolve, reject); });
+    for (;;) {
+      // a reader gives some at a time
+      const some = await new Promise((resolve, reject) => {
+        reader.readEntries(resolve, reject);
+      });
       if (some.length === 0) return;
       for (const one of some) await look(one);
     }
@@ -32,11 +37,19 @@ const stem = (name) => name.replace(/\.[^./]*$/, '');
 export function scansAmong(files) {
   const names = files.map(({ name }) => name).filter((name) => !/(^|\/)\./.test(name));
   const headers = new Set(names.filter((name) => /\.(nhdr|mhd|hdr)$/i.test(name)).map(stem));
-  const isData = (name) => /\.(raw|zraw|img|bin)(\.gz)?$/i.test(name) && headers.has(stem(name.replace(/\.gz$/i, '')));
+  const isData = (name) =>
+    /\.(raw|zraw|img|bin)(\.gz)?$/i.test(name) && headers.has(stem(name.replace(/\.gz$/i, '')));
   return names.filter((name) => !isData(name));
 }
 
 /** The name without folder and endings, for results. */
 export function baseOf(name) {
-  return name.replace(/^.*\//, '').replace(/(\.seg)?\.(nii|nrrd|nhdr|mha|mhd|tiff?|mgz|mgh|npy|hdr|img|png|stl|obj|ply|off|vtk|vti)(\.gz)?$/i, '') || 'scan';
+  return (
+    name
+      .replace(/^.*\//, '')
+      .replace(
+        /(\.seg)?\.(nii|nrrd|nhdr|mha|mhd|tiff?|mgz|mgh|npy|hdr|img|png|stl|obj|ply|off|vtk|vti)(\.gz)?$/i,
+        '',
+      ) || 'scan'
+  );
 }

@@ -1,4 +1,4 @@
-// Keeps the page's own files, so that it opens without a network. Made anew with each build: its files are another cache.
+// Keeps the page's own files, so that it opens without a network. Each build has a cache of its own.
 const cacheName = 'voxelcore-@DIGEST@';
 const files = @FILES@;
 

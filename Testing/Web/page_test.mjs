@@ -1,5 +1,5 @@
 // The page of Applications/web in headless Chromium, against the native program.
-// usage: node web_page_test.mjs PROGRAM PACKAGE FOLDER PART    PACKAGE: of Applications/web/build.sh; FOLDER: to work in;
+// usage: node page_test.mjs PROGRAM PACKAGE FOLDER PART    PACKAGE: of Applications/web/build.sh; FOLDER: to work in;
 // PART: results, wrong, labels, cancel, offline, file, phone. Exit code 77: no Chromium, no npm or no package here.
 
 import { execFileSync, spawnSync } from 'node:child_process';
@@ -25,19 +25,38 @@ function check(holds, what) {
 const equal = (found, expected, what) => check(found === expected, `${what}: ${found}, not ${expected}`);
 
 if (!browserPath) skip('there is no Chromium');
-if (!fs.existsSync(path.join(packageFolder, 'voxelcore.wasm'))) skip(`${packageFolder} is not there; make it with Applications/web/build.sh`);
+if (!fs.existsSync(path.join(packageFolder, 'voxelcore.wasm')))
+  skip(`${packageFolder} is not there; make it with Applications/web/build.sh`);
 if (spawnSync('npm', ['--version']).status !== 0) skip('there is no npm');
 
 // The page is made once for all parts, which may run side by side.
 fs.mkdirSync(folder, { recursive: true });
-execFileSync('flock', [path.join(folder, 'lock'), 'sh', '-c',
-  'test "$3/page/sw.js" -nt "$2/voxelcore.wasm" && test -z "$(find "$4" -newer "$3/page/sw.js" -type f)" || node "$1" "$2" "$3"', 'sh',
-  path.join(root, 'Applications/web/page/build.mjs'), packageFolder, folder, path.join(root, 'Applications/web/page')],
-{ stdio: 'inherit' });
+execFileSync(
+  'flock',
+  [
+    path.join(folder, 'lock'),
+    'sh',
+    '-c',
+    'test "$3/page/sw.js" -nt "$2/voxelcore.wasm" && ' +
+      'test -z "$(find "$4" -newer "$3/page/sw.js" -type f)" || node "$1" "$2" "$3"',
+    'sh',
+    path.join(root, 'Applications/web/page/build.mjs'),
+    packageFolder,
+    folder,
+    path.join(root, 'Applications/web/page'),
+  ],
+  { stdio: 'inherit' },
+);
 const { chromium } = await import(pathToFileURL(path.join(folder, 'tools/node_modules/playwright-core/index.mjs')));
 const { unzipSync } = await import(pathToFileURL(path.join(folder, 'tools/node_modules/fflate/esm/index.mjs')));
 
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.png': 'image/png', '.webmanifest': 'application/manifest+json' };
+const types = {
+  '.html': 'text/html',
+  '.js': 'text/javascript',
+  '.css': 'text/css',
+  '.png': 'image/png',
+  '.webmanifest': 'application/manifest+json',
+};
 const server = http.createServer((request, answer) => {
   const name = path.join(folder, 'page', path.normalize(new URL(request.url, 'http://localhost').pathname));
   const file = name.endsWith('/') ? `${name}index.html` : name;
@@ -45,17 +64,27 @@ const server = http.createServer((request, answer) => {
     answer.writeHead(404).end();
     return;
   }
-  answer.writeHead(200, { 'content-type': types[path.extname(file)] ?? 'application/octet-stream' }).end(fs.readFileSync(file));
+  answer
+    .writeHead(200, { 'content-type': types[path.extname(file)] ?? 'application/octet-stream' })
+    .end(fs.readFileSync(file));
 });
-await new Promise((resolve) => { server.listen(0, '127.0.0.1', resolve); });
+await new Promise((resolve) => {
+  server.listen(0, '127.0.0.1', resolve);
+});
 const origin = `http://127.0.0.1:${server.address().port}/`;
 
-const browser = await chromium.launch({ executablePath: browserPath,
-  args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+const browser = await chromium.launch({
+  executablePath: browserPath,
+  args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
 
 /** A page that is ready; all it asks for is its own, and nothing in it fails unheard. */
 async function open(address = origin, { width = 1440, scheme = 'light' } = {}) {
-  const context = await browser.newContext({ viewport: { width, height: 900 }, colorScheme: scheme, acceptDownloads: true });
+  const context = await browser.newContext({
+    viewport: { width, height: 900 },
+    colorScheme: scheme,
+    acceptDownloads: true,
+  });
   const page = await context.newPage();
   page.foreign = [];
   page.failures = [];
@@ -65,7 +94,9 @@ async function open(address = origin, { width = 1440, scheme = 'light' } = {}) {
     if (!own && !/^(blob|data|about):/.test(url)) page.foreign.push(url);
   });
   page.on('pageerror', (error) => page.failures.push(String(error)));
-  page.on('console', (message) => { if (message.type() === 'error') page.failures.push(message.text()); });
+  page.on('console', (message) => {
+    if (message.type() === 'error') page.failures.push(message.text());
+  });
   page.setDefaultTimeout(120000);
   await page.goto(address);
   await page.waitForSelector('body[data-state=ready]');
@@ -83,11 +114,14 @@ async function give(page, ...names) {
 }
 async function drop(page, name) {
   const bytes = fs.readFileSync(name).toString('base64');
-  await page.evaluate(([file, text]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], file));
-    document.getElementById('drop').dispatchEvent(new DragEvent('drop', { bubbles: true, dataTransfer: transfer }));
-  }, [path.basename(name), bytes]);
+  await page.evaluate(
+    ([file, text]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], file));
+      document.getElementById('drop').dispatchEvent(new DragEvent('drop', { bubbles: true, dataTransfer: transfer }));
+    },
+    [path.basename(name), bytes],
+  );
   await page.waitForSelector('#run:enabled');
 }
 async function want(page, ...commands) {
@@ -125,8 +159,14 @@ function lasting(bytes) {
 const parts = {
   async results() {
     const page = await open();
-    const runs = [['root.nrrd', 'core'], ['capsule.mha', 'core', 'skeleton'], ['torus.nrrd', 'thickness'], ['plate-3.nrrd', 'sheets'],
-      ['root.nrrd', 'roots'], ['ball-40.nii.gz', 'core']];
+    const runs = [
+      ['root.nrrd', 'core'],
+      ['capsule.mha', 'core', 'skeleton'],
+      ['torus.nrrd', 'thickness'],
+      ['plate-3.nrrd', 'sheets'],
+      ['root.nrrd', 'roots'],
+      ['ball-40.nii.gz', 'core'],
+    ];
     let compared = 0;
     for (const [scan, ...commands] of runs) {
       await drop(page, path.join(data, scan));
@@ -137,7 +177,10 @@ const parts = {
       const links = await page.locator('#downloads a').allTextContents();
       equal([...links].sort().join(' '), Object.keys(made).sort().join(' '), `${scan}: links and files of the zip`);
       const [one] = await Promise.all([page.waitForEvent('download'), page.locator('#downloads a').first().click()]);
-      check(Buffer.compare(fs.readFileSync(await one.path()), Buffer.from(made[links[0]])) === 0, `${links[0]}: not that of the zip`);
+      check(
+        Buffer.compare(fs.readFileSync(await one.path()), Buffer.from(made[links[0]])) === 0,
+        `${links[0]}: not that of the zip`,
+      );
 
       // The same words for the native program.
       const own = fs.mkdtempSync(path.join(folder, 'native-'));
@@ -145,13 +188,25 @@ const parts = {
       for (const [name, bytes] of Object.entries(made).filter(([file]) => file.endsWith('.json'))) {
         const { voxelcore } = JSON.parse(Buffer.from(bytes).toString());
         if (!voxelcore?.command) continue;
-        execFileSync(program, voxelcore.command.split(' ').slice(1).filter((word) => !word.startsWith('--progress')), { cwd: own, stdio: 'pipe' });
+        execFileSync(
+          program,
+          voxelcore.command
+            .split(' ')
+            .slice(1)
+            .filter((word) => !word.startsWith('--progress')),
+          { cwd: own, stdio: 'pipe' },
+        );
         check(fs.existsSync(path.join(own, name)), `${name}: not among the native program's files`);
       }
       for (const [name, bytes] of Object.entries(made)) {
         const native = fs.readFileSync(path.join(own, name));
-        const same = name.endsWith('.json') && JSON.parse(native.toString()).voxelcore?.command ? lasting(native) === lasting(bytes)
-          : Buffer.compare(native, Buffer.from(bytes)) === 0;
+        const words = (text) => text.toString().replace(/<last-modified>.*<\/last-modified>/, '');
+        const same =
+          name.endsWith('.json') && JSON.parse(native.toString()).voxelcore?.command
+            ? lasting(native) === lasting(bytes)
+            : name.endsWith('.rsml')
+              ? words(native) === words(Buffer.from(bytes))
+              : Buffer.compare(native, Buffer.from(bytes)) === 0;
         check(same, `${scan}, ${commands}: ${name} differs from the native program's`);
         ++compared;
       }
@@ -162,7 +217,10 @@ const parts = {
     // Preset, picture, slider, colours, offline page.
     await drop(page, path.join(data, 'gyroid.nrrd'));
     await page.check('input[name=preset][value=Bone]');
-    check(await page.isChecked('#want-thickness') && !(await page.isChecked('#want-skeleton')), 'the preset chose something else');
+    check(
+      (await page.isChecked('#want-thickness')) && !(await page.isChecked('#want-skeleton')),
+      'the preset chose something else',
+    );
     await compute(page);
     const frame = await viewer(page);
     const count = () => frame.evaluate(() => Page.view.parts.reduce((sum, one) => sum + one.geometry.index.count, 0));
@@ -173,9 +231,10 @@ const parts = {
     await frame.locator('#least-tolerance').fill('0');
     equal(await count(), all, 'corners after the slider came back');
     const colorings = await frame.locator('#coloring option').allTextContents();
-    for (const name of ['Radius', 'Lambda', 'Thickness', 'Tolerance']) check(colorings.includes(name), `no colours by ${name}: ${colorings}`);
-    check(await page.locator('#histograms svg').count() === 2, 'not two histograms');
-    check(await page.locator('#tables table').count() > 0, 'no table');
+    for (const name of ['Radius', 'Lambda', 'Thickness', 'Tolerance'])
+      check(colorings.includes(name), `no colours by ${name}: ${colorings}`);
+    check((await page.locator('#histograms svg').count()) === 2, 'not two histograms');
+    check((await page.locator('#tables table').count()) > 0, 'no table');
     await shot(page, 'result-1440');
     const [saved] = await Promise.all([page.waitForEvent('download'), page.click('#offline')]);
     const alone = await page.context().newPage();
@@ -196,16 +255,35 @@ const parts = {
     const nifti = zlib.gunzipSync(ball);
     const shell = fs.readFileSync(path.join(data, 'shell.mha'));
     const tiff = fs.readFileSync(path.join(data, 'tanglecube.tif'));
-    const changed = (bytes, at, ...to) => { const copy = Buffer.from(bytes); copy.set(to, at); return copy; };
+    const changed = (bytes, at, ...to) => {
+      const copy = Buffer.from(bytes);
+      copy.set(to, at);
+      return copy;
+    };
     const text = (bytes, from, to) => Buffer.from(bytes.toString('latin1').replace(from, to), 'latin1');
-    const wrong = { 'empty.nrrd': Buffer.alloc(0), 'words.nrrd': Buffer.from('no scan\n'), 'half.nrrd': root3.subarray(0, root3.length / 2),
-      'head.nrrd': root3.subarray(0, 60), 'sizes.nrrd': text(root3, /sizes: .*/, 'sizes: 9000000000 9000000000 9000000000'),
-      'negative.nrrd': text(root3, /sizes: .*/, 'sizes: -1 2 3'), 'type.nrrd': text(root3, /type: .*/, 'type: nonsense'),
-      'empty.nii': Buffer.alloc(0), 'half.nii': nifti.subarray(0, nifti.length / 2), 'magic.nii': changed(nifti, 344, 0, 0, 0, 0),
-      'rank.nii': changed(nifti, 40, 99), 'half.nii.gz': ball.subarray(0, ball.length / 2), 'noise.nii.gz': changed(ball, 40, 1, 2, 3, 4, 5, 6, 7, 8),
-      'half.mha': shell.subarray(0, shell.length - 10), 'words.mha': Buffer.from('ObjectType = Image\n'),
-      'half.tif': tiff.subarray(0, tiff.length / 2), 'words.tif': Buffer.from('II*'), 'zeros.nrrd': Buffer.alloc(1000),
-      'words.npy': Buffer.from('NUMPY'), 'unknown.xyz': Buffer.from('what is it'), 'words.mgz': Buffer.from('no scan') };
+    const wrong = {
+      'empty.nrrd': Buffer.alloc(0),
+      'words.nrrd': Buffer.from('no scan\n'),
+      'half.nrrd': root3.subarray(0, root3.length / 2),
+      'head.nrrd': root3.subarray(0, 60),
+      'sizes.nrrd': text(root3, /sizes: .*/, 'sizes: 9000000000 9000000000 9000000000'),
+      'negative.nrrd': text(root3, /sizes: .*/, 'sizes: -1 2 3'),
+      'type.nrrd': text(root3, /type: .*/, 'type: nonsense'),
+      'empty.nii': Buffer.alloc(0),
+      'half.nii': nifti.subarray(0, nifti.length / 2),
+      'magic.nii': changed(nifti, 344, 0, 0, 0, 0),
+      'rank.nii': changed(nifti, 40, 99),
+      'half.nii.gz': ball.subarray(0, ball.length / 2),
+      'noise.nii.gz': changed(ball, 40, 1, 2, 3, 4, 5, 6, 7, 8),
+      'half.mha': shell.subarray(0, shell.length - 10),
+      'words.mha': Buffer.from('ObjectType = Image\n'),
+      'half.tif': tiff.subarray(0, tiff.length / 2),
+      'words.tif': Buffer.from('II*'),
+      'zeros.nrrd': Buffer.alloc(1000),
+      'words.npy': Buffer.from('NUMPY'),
+      'unknown.xyz': Buffer.from('what is it'),
+      'words.mgz': Buffer.from('no scan'),
+    };
     let slowest = 0;
     for (const [name, bytes] of Object.entries(wrong)) {
       fs.writeFileSync(path.join(own, name), bytes);
@@ -232,13 +310,22 @@ const parts = {
     for (let label = 1; label <= count; ++label) {
       for (let at = 0; at < 27; ++at) {
         const [x, y, z] = [at % 3, Math.floor(at / 3) % 3, Math.floor(at / 9)];
-        const place = (1 + z) * nx * ny + (1 + y + 5 * Math.floor((label - 1) / 20)) * nx + 1 + x + 5 * ((label - 1) % 20);
+        const place =
+          (1 + z) * nx * ny + (1 + y + 5 * Math.floor((label - 1) / 20)) * nx + 1 + x + 5 * ((label - 1) % 20);
         voxels.writeUInt16LE(label, 2 * place);
       }
     }
     const name = path.join(folder, 'labels-300.nrrd');
-    fs.writeFileSync(name, Buffer.concat([Buffer.from(`NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${nx} ${ny} ${nz}\n` +
-      'spacings: 1 1 1\nencoding: raw\nendian: little\n\n'), voxels]));
+    fs.writeFileSync(
+      name,
+      Buffer.concat([
+        Buffer.from(
+          `NRRD0004\ntype: uint16\ndimension: 3\nsizes: ${nx} ${ny} ${nz}\n` +
+            'spacings: 1 1 1\nencoding: raw\nendian: little\n\n',
+        ),
+        voxels,
+      ]),
+    );
     const page = await open();
     await give(page, name);
     equal(await page.locator('#labels tbody tr').count(), count, 'labels listed');
@@ -273,7 +360,7 @@ const parts = {
     await page.waitForSelector('#run:enabled');
     check(Date.now() - start < 3000, `it stopped after ${Date.now() - start} ms`);
     check((await page.textContent('#said')).startsWith('Stopped'), 'it does not say that it stopped');
-    check(await page.isHidden('#shown') && await page.isHidden('#failure'), 'it shows something');
+    check((await page.isHidden('#shown')) && (await page.isHidden('#failure')), 'it shows something');
     await drop(page, path.join(data, 'torus.nrrd')); // and it goes on
     await want(page, 'core');
     await compute(page);
@@ -310,7 +397,7 @@ const parts = {
   async phone() {
     const page = await open(origin, { width: 390, scheme: 'dark' });
     const wide = () => page.evaluate(() => document.documentElement.scrollWidth);
-    check(await wide() <= 390, `it is ${await wide()} pixels wide`);
+    check((await wide()) <= 390, `it is ${await wide()} pixels wide`);
     await page.focus('#sample'); // all by keys
     await page.keyboard.press('Enter');
     await page.waitForSelector('#run:enabled');
@@ -322,12 +409,21 @@ const parts = {
     await page.waitForSelector('#shown:not([hidden])', { state: 'attached' });
     equal(await page.evaluate(() => document.activeElement.id), 'certificate-title', 'what has the focus');
     await viewer(page);
-    check(await wide() <= 390, `with a result it is ${await wide()} pixels wide`);
-    const nameless = await page.evaluate(() => [...document.querySelectorAll('button, input, select, progress, iframe, [role=region]')]
-      .filter((one) => !one.textContent.trim() && !one.getAttribute('aria-label') && !one.title && !one.labels?.length).map((one) => one.outerHTML));
+    check((await wide()) <= 390, `with a result it is ${await wide()} pixels wide`);
+    const nameless = await page.evaluate(() =>
+      [...document.querySelectorAll('button, input, select, progress, iframe, [role=region]')]
+        .filter(
+          (one) => !one.textContent.trim() && !one.getAttribute('aria-label') && !one.title && !one.labels?.length,
+        )
+        .map((one) => one.outerHTML),
+    );
     equal(nameless.join(' '), '', 'without a name for screen readers');
-    for (const role of ['status', 'alert', 'radiogroup', 'region']) check(await page.locator(`[role=${role}]`).count() > 0, `no ${role}`);
-    check(await page.evaluate(() => getComputedStyle(document.body).backgroundColor) === 'rgb(20, 23, 26)', 'the ground is not dark');
+    for (const role of ['status', 'alert', 'radiogroup', 'region'])
+      check((await page.locator(`[role=${role}]`).count()) > 0, `no ${role}`);
+    check(
+      (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)) === 'rgb(20, 23, 26)',
+      'the ground is not dark',
+    );
     await shot(page, 'phone-390');
     await close(page);
   },
