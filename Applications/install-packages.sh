@@ -30,7 +30,8 @@ packages_of() {
     container) echo buildah podman runc debootstrap mricron-data ;;
     cluster) echo snakemake slurm-wlm munge python3 ;;
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
-    web) echo emscripten node-acorn cmake ninja-build ccache dpkg-dev libboost-dev libcli11-dev nlohmann-json3-dev ;;
+    web) echo emscripten node-acorn cmake ninja-build ccache dpkg-dev libboost-dev libcli11-dev nlohmann-json3-dev \
+              libjs-three ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \

@@ -1,6 +1,6 @@
 // The page of Applications/web in headless Chromium, against the native program.
-// usage: node page_test.mjs PROGRAM PACKAGE FOLDER PART    PACKAGE: of Applications/web/build.sh; FOLDER: to work in;
-// PART: results, wrong, labels, cancel, offline, file, phone. Exit code 77: no Chromium, no npm or no package here.
+// usage: node page_test.mjs PROGRAM PACKAGE FOLDER PART    PACKAGE: of Applications/web/build.sh; FOLDER: to work in
+// PART: results, wrong, labels, folders, cancel, offline, file or phone. Exit code 77: no Chromium, npm or package.
 
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -343,6 +343,70 @@ const parts = {
     equal(await page.locator('#certificate li').count(), 1, 'certificates of one chosen label');
     check((await page.textContent('#certificate')).includes('label-7'), 'another label was computed');
     await shot(page, 'labels-1440');
+    await close(page);
+  },
+
+  async folders() {
+    const own = fs.mkdtempSync(path.join(folder, 'folders-'));
+    const page = await open();
+    const giveFolder = async (name) => {
+      await page.setInputFiles('#folder', path.join(own, name));
+      await page.waitForSelector('#run:enabled, #failure:not([hidden])', { state: 'attached' });
+      check(await page.isHidden('#failure'), `${name}: ${await page.textContent('#failure')}`);
+    };
+    // A header and its data, and a file that is no scan beside them.
+    fs.mkdirSync(path.join(own, 'header'));
+    const whole = execFileSync(program, ['phantom', 'ball', '--size', '16', '-o', path.join(own, 'ball.mhd')], {
+      encoding: 'utf8',
+    });
+    check(whole.includes('16 x 16 x 16'), whole);
+    const [voxels] = fs.readdirSync(own).filter((name) => /raw$/.test(name));
+    for (const name of ['ball.mhd', voxels]) fs.renameSync(path.join(own, name), path.join(own, 'header', name));
+    await giveFolder('header');
+    check((await page.textContent('#what')).includes('16 × 16 × 16'), await page.textContent('#what'));
+    check(await page.isHidden('#which'), 'the data are taken for another scan');
+    await want(page, 'core');
+    await compute(page);
+
+    // Slices: grey BMP files.
+    fs.mkdirSync(path.join(own, 'slices'));
+    const [side, count] = [24, 5]; // squares of 4 to 12 voxels
+    for (let k = 0; k < count; ++k) {
+      const slice = Buffer.alloc(54 + 1024 + side * side);
+      slice.write('BM');
+      [
+        [2, slice.length],
+        [10, 54 + 1024],
+        [14, 40],
+        [18, side],
+        [22, side],
+        [46, 256],
+      ].forEach(([at, value]) => slice.writeUInt32LE(value, at));
+      slice.writeUInt16LE(1, 26);
+      slice.writeUInt16LE(8, 28);
+      for (let grey = 0; grey < 256; ++grey) slice.fill(grey, 54 + 4 * grey, 57 + 4 * grey);
+      for (let y = 10 - k; y < 14 + k; ++y) {
+        slice.fill(255, 54 + 1024 + side * y + 10 - k, 54 + 1024 + side * y + 14 + k);
+      }
+      fs.writeFileSync(path.join(own, 'slices', `slice-${k}.bmp`), slice);
+    }
+    await giveFolder('slices');
+    check(
+      (await page.textContent('#what')).includes(`${side} × ${side} × ${count}`),
+      await page.textContent('#what'),
+    );
+    check((await page.textContent('#labels')).includes('360'), 'other voxels than the squares have');
+    check((await page.textContent('#labels')).includes('vox³'), 'a scan without a voxel size has volumes in mm³');
+    await compute(page);
+    check((await page.textContent('#histograms')).includes('vox'), 'and radii in mm');
+
+    // Several scans: one is chosen.
+    await give(page, path.join(data, 'box.nrrd'), path.join(data, 'torus.nrrd'));
+    await page.selectOption('#main-file', 'torus.nrrd');
+    await page.waitForSelector('#run:enabled');
+    await compute(page);
+    check((await page.textContent('#certificate')).includes('1 loop'), 'the other scan was computed');
+    fs.rmSync(own, { recursive: true });
     await close(page);
   },
 

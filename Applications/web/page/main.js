@@ -47,6 +47,7 @@ const people = { Vessel: 'Vessel or airway', Root: 'Root', Bone: 'Bone', Brain: 
 
 let files = []; // {name, data} as dropped
 let labels = []; // of the scan that was read
+let unit = 'mm'; // of its lengths; vox: they are in voxels
 let reading; // AbortController of what is read or computed
 let running;
 let form;
@@ -78,10 +79,8 @@ async function take(given) {
   if (given.length === 0) return;
   files = given;
   const scans = scansAmong(files);
-  const folder =
-    files[0].name.includes('/') && scans.every((name) => /\.(dcm|ima)$/i.test(name) || !/\.\w+$/.test(name));
   $('main-file').textContent = '';
-  for (const name of folder ? [files[0].name.split('/')[0]] : scans) $('main-file').add(new Option(name, name));
+  for (const name of scans) $('main-file').add(new Option(name, name));
   $('which').hidden = $('main-file').options.length < 2;
   await look();
 }
@@ -96,7 +95,7 @@ function showLabels() {
     label.box = Object.assign(document.createElement('input'), { type: 'checkbox', checked: true });
     name.append(label.box, label.name === `label-${label.label}` ? label.name : `${label.name} (${label.label})`);
     row.insertCell().append(name);
-    for (const text of [`${number(label.volume_mm3)} mm³`, label.voxels.toLocaleString('en')]) {
+    for (const text of [`${number(label[`volume_${unit}3`])} ${unit}³`, label.voxels.toLocaleString('en')]) {
       Object.assign(row.insertCell(), { className: 'n', textContent: text });
     }
     label.row = row;
@@ -120,9 +119,10 @@ async function look() {
   try {
     const info = JSON.parse((await program(['info', '--json', ...asRead()], ['--', mainFile()], { signal })).text);
     ({ labels } = info);
+    unit = info.spacing_mm ? 'mm' : 'vox';
     $('what').textContent =
       `${info.format}, ${info.pixel_type}: ${info.size.join(' × ')} voxels of ` +
-      `${info.spacing_mm.map((side) => number(side)).join(' × ')} mm; ` +
+      `${info[`spacing_${unit}`].map((side) => number(side)).join(' × ')} ${unit}; ` +
       `${labels.length} ${labels.length === 1 ? 'label' : 'labels'}.`;
     const unusual = [...info.warnings, ...info.notes];
     $('diagnosis').replaceChildren(
@@ -384,7 +384,7 @@ async function show(made, base) {
       const values = mesh.pointArrays[name];
       const range = values && rangeOf([values]);
       const title = `${name} of the ${kind === 'curves' ? 'curve skeleton' : 'medial surface'}`;
-      const figure = range && histogramOf(title, values, range, mesh.fields.Units?.[0] ?? 'mm');
+      const figure = range && histogramOf(title, values, range, unit);
       if (figure) figures.push(figure);
     }
   }

@@ -175,7 +175,7 @@ function colorOf(index) {
 }
 
 function unitsOf(unit) {
-  if (unit !== 'mm') return [{ name: unit, size: 1, from: 0 }];
+  if (unit !== 'mm') return [{ name: 'vox', size: 1, from: 0 }];
   return [
     { name: 'mm', size: 1, from: 0.1 },
     { name: 'µm', size: 1e-3, from: 1e-4 },

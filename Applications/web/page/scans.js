@@ -33,13 +33,19 @@ export function filesOfInput(input) {
 
 const stem = (name) => name.replace(/\.[^./]*$/, '');
 
-/** The names among `files` that are scans by themselves: data beside a header of the same name are none. */
+/** What among `files` can be opened: files, but not data beside a header of the same name; or the folder of a scan that
+ *  is a folder, such as one of slices. */
 export function scansAmong(files) {
   const names = files.map(({ name }) => name).filter((name) => !/(^|\/)\./.test(name));
   const headers = new Set(names.filter((name) => /\.(nhdr|mhd|hdr)$/i.test(name)).map(stem));
   const isData = (name) =>
     /\.(raw|zraw|img|bin)(\.gz)?$/i.test(name) && headers.has(stem(name.replace(/\.gz$/i, '')));
-  return names.filter((name) => !isData(name));
+  const scans = names.filter((name) => !isData(name));
+  const [folder] = (scans[0] ?? '').split('/');
+  const isPart = (name) =>
+    name.startsWith(`${folder}/`) && (/\.(png|bmp|jpe?g|tiff?|dcm|ima)$/i.test(name) || !/\.[^/]*$/.test(name));
+  const isVolume = files.some(({ name }) => /\/(\.zarray|\.zattrs|zarr\.json|info)$/.test(name));
+  return isVolume || (scans.length > 1 && scans.every(isPart)) ? [folder] : scans;
 }
 
 /** The name without folder and endings, for results. */

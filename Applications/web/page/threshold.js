@@ -8,8 +8,8 @@ if (Page && Page.view)
     const ofCode = (range, code) =>
       code === 65535 ? Infinity : range.least + ((range.greatest - range.least) * code) / 65534;
 
-    // Per part its elements, `corners` indices each, and what each needs to be shown: at least these numbers. An edge is
-    // drawn only where no face on it reaches the tolerance.
+    // Per part its elements, `corners` indices each, and what each needs to be shown: at least these numbers. An edge
+    // is drawn only where no face on it reaches the tolerance.
     const filters = [];
     for (const part of view.parts) {
       const { label, kind, valuesAt } = part.userData,
