@@ -335,6 +335,7 @@ const parts = {
     await want(page, 'core');
     await compute(page);
     equal(await page.locator('#certificate li').count(), count, 'certificates');
+    equal(await page.textContent('#certificate-title'), `Result: ${count} of ${count} certified`, 'the heading');
     const frame = await viewer(page);
     equal(await frame.locator('#labels li').count(), count, 'labels in the viewer');
     await page.click('#no-labels');
@@ -400,12 +401,29 @@ const parts = {
     await compute(page);
     check((await page.textContent('#histograms')).includes('vox'), 'and radii in mm');
 
+    // A file with names of labels.
+    fs.writeFileSync(path.join(own, 'box.txt'), '1 Shoe box\n');
+    await give(page, path.join(data, 'box.nrrd'), path.join(own, 'box.txt'));
+    check(await page.isHidden('#which'), 'the names are taken for another scan');
+    check((await page.textContent('#labels')).includes('Shoe'), 'the label has no name');
+
     // Several scans: one is chosen.
     await give(page, path.join(data, 'box.nrrd'), path.join(data, 'torus.nrrd'));
     await page.selectOption('#main-file', 'torus.nrrd');
     await page.waitForSelector('#run:enabled');
     await compute(page);
     check((await page.textContent('#certificate')).includes('1 loop'), 'the other scan was computed');
+
+    // A threshold is another way to read the scan, which no preset changes.
+    await page.fill('[data-option=threshold]', '5:inf');
+    await page.locator('[data-option=threshold]').blur();
+    await page.waitForSelector('#failure:not([hidden])', { state: 'attached' });
+    check(await page.isDisabled('#run'), 'it can be run without a voxel');
+    await page.check('input[name=preset][value=Bone]');
+    equal(await page.inputValue('[data-option=threshold]'), '5:inf', 'the threshold after a preset');
+    await page.fill('[data-option=threshold]', '1:inf');
+    await page.locator('[data-option=threshold]').blur();
+    await page.waitForSelector('#run:enabled');
     fs.rmSync(own, { recursive: true });
     await close(page);
   },

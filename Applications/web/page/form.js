@@ -112,9 +112,10 @@ export class Form {
     }
   }
 
-  /** Takes the options of a preset, and the defaults for all the rest. */
+  /** Takes the options of a preset, and the defaults for all the rest but how the scan is read. */
   fill(steps) {
     for (const { row, input } of this.fields.values()) {
+      if (row.group === 'Input') continue;
       const step = steps.find(([command, options]) => isOf(row, command) && options[row.name] !== undefined);
       const value = step?.[1][row.name];
       if (row.kind === 'flag') {

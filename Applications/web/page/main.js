@@ -111,6 +111,7 @@ async function look() {
   running?.abort();
   calm();
   $('run').disabled = true;
+  labels = [];
   $('labels-part').hidden = $('diagnosis').hidden = $('words').hidden = true;
   $('words').open = false;
   $('what').textContent = `Reading ${mainFile()} …`;
@@ -355,12 +356,14 @@ async function show(made, base) {
     );
     for (const label of report ? (JSON.parse(textOf(report[1])).labels ?? []) : []) {
       const sentence = certificateWords(label);
-      if (sentence) words.push(`${wanted[command]}, ${sentence}`);
+      if (sentence) words.push({ words: `${wanted[command]}, ${sentence}`, passed: label.certificate.passed });
       names.set(label.label, label.name);
     }
   }
   const item = (line) => Object.assign(document.createElement('li'), { textContent: line });
-  $('certificate').replaceChildren(...words.map(item));
+  $('certificate').replaceChildren(...words.map((one) => item(one.words)));
+  const good = words.filter(({ passed }) => passed).length;
+  $('certificate-title').textContent = words.length === 0 ? 'Result' : `Result: ${good} of ${words.length} certified`;
   const warnings = [...new Set(made.flatMap(([, result]) => result.warnings))];
   $('warnings').replaceChildren(...warnings.map(item));
   $('warnings').hidden = warnings.length === 0;

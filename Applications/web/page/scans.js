@@ -40,7 +40,8 @@ export function scansAmong(files) {
   const headers = new Set(names.filter((name) => /\.(nhdr|mhd|hdr)$/i.test(name)).map(stem));
   const isData = (name) =>
     /\.(raw|zraw|img|bin)(\.gz)?$/i.test(name) && headers.has(stem(name.replace(/\.gz$/i, '')));
-  const scans = names.filter((name) => !isData(name));
+  const isNames = (name) => /\.(txt|label|ctab|lut)$/i.test(name); // of labels
+  const scans = names.filter((name) => !isData(name) && (!isNames(name) || names.every(isNames)));
   const [folder] = (scans[0] ?? '').split('/');
   const isPart = (name) =>
     name.startsWith(`${folder}/`) && (/\.(png|bmp|jpe?g|tiff?|dcm|ima)$/i.test(name) || !/\.[^/]*$/.test(name));
