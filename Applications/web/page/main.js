@@ -65,6 +65,7 @@ function fail(error) {
     error instanceof VoxelCoreError && error.errors.length > 0 ? error.errors : [error.message ?? String(error)];
   $('failure').textContent = lines.map((line) => line.replace(/^voxelcore: /, '')).join('\n');
   $('failure').hidden = false;
+  $('failure').scrollIntoView({ block: 'nearest' });
   say('');
 }
 function calm() {
