@@ -1,5 +1,5 @@
-// What MainStack.cxx and Signals.cxx do elsewhere, and the table of options for a page's forms. Here the stack has its size from the start, and nothing but the page or
-// Node ends the program: it asks for that by Module.isCancelled().
+// What MainStack.cxx and Signals.cxx do elsewhere, and the table of options for a page's forms. Here the stack has its
+// size from the start, and nothing but the page or Node ends the program: it asks for that by Module.isCancelled().
 
 #include "../voxelcore/MainStack.h"
 #include "../voxelcore/Signals.h"

@@ -8,7 +8,7 @@ namespace voxelcore
 {
 
 /** sqrt(x^2 + y^2), to within one unit in the last place: the root, set right by what its rounding left.
- *  C. F. Borges, "An Improved Algorithm for hypot(a,b)", arXiv:1904.09481, 2019; the same bits as glibc's from 2.35 on. */
+ *  C. F. Borges, "An Improved Algorithm for hypot(a,b)", arXiv:1904.09481, 2019; the bits of glibc from 2.35 on. */
 inline double
 Hypot(double x, double y)
 {
