@@ -26,7 +26,8 @@ function(voxelcore_library target)
   endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON
-    POSITION_INDEPENDENT_CODE $<NOT:$<PLATFORM_ID:Emscripten>> CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+    POSITION_INDEPENDENT_CODE $<NOT:$<PLATFORM_ID:Emscripten>>
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:VoxelCoreBuildRules>)
   target_link_options(${target} INTERFACE
     $<$<PLATFORM_ID:Linux>:LINKER:--exclude-libs,$<TARGET_FILE_NAME:VoxelCore::${name}>>)

@@ -16,9 +16,9 @@ namespace voxelcore
 ScanLabels
 ReadScanLabels(const CoreOptions & options, StagePlan & plan, CoreReport & report)
 {
-  Stopwatch watch;
-  auto      digest = std::async(Beside(), [&options] { return ScanSha256(options.scan, options.reading); });
-  InputScan volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
+  Stopwatch            watch;
+  auto                 digest = std::async(Beside(), [&options] { return ScanSha256(options.scan, options.reading); });
+  InputScan            volume = ReadScanOrMesh(options.scan, options.reading, options.resolution, plan.Next("reading"));
   const SpacingWeights weights = ScanWeights(volume.geometry, options.scan);
   ScanLabels           read;
   read.geometry = volume.geometry;

@@ -78,7 +78,7 @@ ModificationTime(const fs::path & path)
 {
   struct stat       status = {};
   const std::time_t seconds = stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
-  std::tm parts{};
+  std::tm           parts{};
   gmtime_r(&seconds, &parts);
   char text[32];
   (void)std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%S", &parts);
