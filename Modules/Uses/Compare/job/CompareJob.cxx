@@ -8,6 +8,7 @@
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
+#include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Labels/CropRange.h"
 #include "voxelcore/Models/AppendedVtp.h"
@@ -574,7 +575,7 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
   {
     for (const char * further : { "_differences", "_branches", "_levels" })
     {
-      targets.push_back(Beside(*options.table, further));
+      targets.push_back(FileOutputPath(*options.table, further));
     }
     targets.push_back(ColumnsBeside(*options.table));
   }
@@ -605,7 +606,7 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
     for (const CompareTable & table : result.tables)
     {
       WriteCompareCsv(
-        transaction.Stage(table.name == "labels" ? *options.table : Beside(*options.table, "_" + table.name)),
+        transaction.Stage(table.name == "labels" ? *options.table : FileOutputPath(*options.table, "_" + table.name)),
         table,
         context.Heads(result.unit));
     }
