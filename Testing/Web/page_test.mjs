@@ -473,6 +473,11 @@ const parts = {
     await compute(page);
     await viewer(page);
     check(Object.keys(await filesOf(page)).length >= 6, 'files are missing');
+    await page.click('#licences summary');
+    const licences = page.locator('#licences pre');
+    await licences.getByText('Apache License').first().waitFor();
+    for (const name of ['libjs-three', 'fflate'])
+      check((await licences.textContent()).includes(name), `no licence of ${name}`);
     await close(page);
   },
 

@@ -118,11 +118,20 @@ function lengthColors() {
   });
 }
 
+// The licences of all that is in the page.
+const licences = [
+  path.join(packageFolder, 'LICENSE'),
+  ...fs.readdirSync(path.join(packageFolder, 'licences')).map((name) => path.join(packageFolder, 'licences', name)),
+  '/usr/share/doc/libjs-three/copyright',
+  path.join(tools, 'node_modules/fflate/LICENSE'),
+].map((name) => `==== ${path.relative(root, name).replace(/^.*\/(?=[^/]*\/[^/]*$)/, '')} ====\n\n${read(name)}`);
+
 const parts = {
   'voxelcore.wasm': fs.readFileSync(path.join(packageFolder, 'voxelcore.wasm')),
   'worker.js': bundle(path.join(packageFolder, 'worker.js'), 'iife'),
   'viewer.html': viewer,
   'presets.json': presets,
+  'licences.txt': licences.join('\n\n'),
   'colors.json': JSON.stringify(lengthColors()),
   'sample-root.nrrd': fs.readFileSync(path.join(root, 'Data/root.nrrd')),
 };

@@ -425,6 +425,10 @@ $('large').addEventListener('click', () => {
   $('large').textContent = large ? 'Back' : 'Large view';
 });
 
+$('licences').addEventListener('toggle', async () => {
+  $('licences').querySelector('pre').textContent = await textPart('licences.txt').catch((error) => error.message);
+});
+
 // ---- start ----
 async function start() {
   const [wasm, worker, template, map] = await Promise.all([
