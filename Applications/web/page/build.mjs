@@ -16,9 +16,10 @@ const read = (...names) => fs.readFileSync(path.join(...names), 'utf8');
 // The libraries, as package-lock.json has them.
 const tools = path.join(out, 'tools');
 fs.mkdirSync(tools, { recursive: true });
-for (const name of ['package.json', 'package-lock.json'])
-  fs.copyFileSync(path.join(here, name), path.join(tools, name));
-if (!fs.existsSync(path.join(tools, 'node_modules'))) {
+const lock = path.join(tools, 'package-lock.json');
+const isSame = fs.existsSync(lock) && read(lock) === read(here, 'package-lock.json');
+for (const name of ['package.json', 'package-lock.json']) fs.copyFileSync(path.join(here, name), path.join(tools, name));
+if (!isSame || !fs.existsSync(path.join(tools, 'node_modules'))) {
   execFileSync('npm', ['ci', '--no-audit', '--no-fund', '--loglevel=error'], {
     cwd: tools,
     stdio: ['ignore', 'ignore', 'inherit'],
