@@ -25,8 +25,11 @@ function(voxelcore_library target)
     target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/inner>")
   endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON
-    POSITION_INDEPENDENT_CODE $<NOT:$<PLATFORM_ID:Emscripten>>
+  set(movable ON)
+  if(EMSCRIPTEN) # whose programs have one address
+    set(movable OFF)
+  endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} CXX_EXTENSIONS ON POSITION_INDEPENDENT_CODE ${movable}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:VoxelCoreBuildRules>)
   target_link_options(${target} INTERFACE
