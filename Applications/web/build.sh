@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the program as WebAssembly and the npm package around it.
-# usage: build.sh [FOLDER]     FOLDER: where to build (build-web); FOLDER/package is the package, FOLDER/*.tgz it packed
+# Builds the program as WebAssembly, the npm package around it, and the page.
+# usage: build.sh [FOLDER]     FOLDER: where to build (build-web); FOLDER/package is the package, FOLDER/*.tgz it packed,
+# FOLDER/page the page for a web server, FOLDER/voxelcore.html the page as one file
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source_folder=$(cd "$here/../.." && pwd)
@@ -36,4 +37,5 @@ sed -i "s/\"version\": \"0.0.0\"/\"version\": \"$version\"/" "$package/package.j
 node "$here/types.js" "$package"
 cd "$build"
 npm pack --silent "$package" >packed
+node "$here/page/build.mjs" "$package" "$build"
 echo "$build/$(cat packed): $(stat -c %s "$(cat packed)") bytes"
