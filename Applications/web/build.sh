@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the program as WebAssembly, the npm package around it, and the page.
-# usage: build.sh [FOLDER]     FOLDER: where to build (build-web); FOLDER/package is the package, FOLDER/*.tgz it packed,
-# FOLDER/page the page for a web server, FOLDER/voxelcore.html the page as one file
+# usage: build.sh [FOLDER]     where to build (build-web). FOLDER/package is the package, FOLDER/*.tgz it packed;
+# FOLDER/page the page for a web server, FOLDER/voxelcore.html the page as one file.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source_folder=$(cd "$here/../.." && pwd)

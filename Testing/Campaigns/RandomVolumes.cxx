@@ -213,8 +213,8 @@ TryCertified(const RandomVolume & volume)
   request.skeleton->smooth = ParseLambda("6vox");
   request.thickness.emplace();
   const CertifiedResult result = ComputeCertified(volume.shape, geometry, request);
-  return result.cores.empty() || !result.skeleton || !result.skeleton->standOut || !result.thickness ? "something is missing"
-                                                                                           : "";
+  const bool            isChecked = result.skeleton && result.skeleton->standOut;
+  return result.cores.empty() || !isChecked || !result.thickness ? "something is missing" : "";
 }
 
 } // namespace

@@ -356,7 +356,8 @@ FindHollowBody(const VoxelShape &                  shape,
 std::string
 HollowText(const HollowBody & body)
 {
-  std::string text = "looks hollow: it walls in " + FixedText(body.share, body.share < 10 ? 1 : 0) + " times its own volume (" +
+  const std::string share = FixedText(body.share, body.share < 10 ? 1 : 0);
+  std::string       text = "looks hollow: it walls in " + share + " times its own volume (" +
                      Counted(body.voxels, "voxel", "voxels") + " of background), and its core follows the walls; ";
   return text + (body.holes == 0
                    ? "--fill-cavities or --fill-slices fills lumens"
