@@ -307,7 +307,7 @@ MeasureCurves(const BurnedCurves &    burned,
   const double     window = InMeanVoxels(request.smooth, ComputeSpacingWeights(spacing), spacing, shape.box);
   const VoxelReach reach = HalfAVoxel(shape.geometry);
   const OpenShape  inside(voxels, shape.geometry);
-  const auto fit = [&] {
+  const auto       fit = [&] {
     const std::size_t domes = BranchIntoDomes(graph, inside, StandOutOn(shape, request));
     if (domes > 0 && window > 0)
     {
