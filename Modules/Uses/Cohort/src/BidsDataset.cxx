@@ -29,8 +29,7 @@ using Json = nlohmann::ordered_json;
 bool
 IsWord(std::string_view text)
 {
-  return !text.empty() &&
-         ranges::all_of(text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
+  return !text.empty() && ranges::all_of(text, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
 }
 
 /** "acq-hr" is a key and a label, both of letters and digits. */

@@ -532,8 +532,7 @@ CompareTablesText(const std::vector<CompareTable> & tables)
   std::size_t           count = 0;
   const CompareTable &  places = tables[1];
   const auto            column = [&](const char * name) {
-    return static_cast<std::size_t>(ranges::find(places.columns, name, &CompareColumn::name) -
-                                    places.columns.begin());
+    return static_cast<std::size_t>(ranges::find(places.columns, name, &CompareColumn::name) - places.columns.begin());
   };
   const std::size_t change = column("change");
   const std::size_t voxels = column("voxels");

@@ -51,7 +51,7 @@ Reach(const Polygon & polygon, std::size_t axis, std::int32_t size)
   const auto   along = [axis](const Vector3 & point) { return point[axis]; };
   const double low = along(*ranges::min_element(polygon, {}, along));
   const double high = along(*ranges::max_element(polygon, {}, along));
-  const auto within = [size](double index) {
+  const auto   within = [size](double index) {
     return static_cast<std::int32_t>(std::clamp(std::floor(index), 0.0, static_cast<double>(size - 1)));
   };
   return { within(low + 0.5 - kClose), within(high + 0.5 + kClose) };
