@@ -112,7 +112,7 @@ def grouped(columns):
 def table_text(columns):
     first = {name: columns[name] for name in FIRST if name in columns}
     kept = {name: told for name, told in columns.items() if name not in first or "given" in told["Description"]}
-    return "column | meaning\n--- | ---\n" + "".join(" | ".join(row) + "\n" for row in grouped(kept))
+    return "column | meaning\n---|---\n" + "".join(" | ".join(row) + "\n" for row in grouped(kept))
 
 
 def named(cell):
@@ -134,7 +134,7 @@ def flat_keys(value, prefix, found):
 def check_arrays(page):
     told = {}  # (kind, section, name)
     for section, heading in (("PointData", "At points"), ("CellData", "At cells"), ("FieldData", "Fields")):
-        table = re.search(rf"(?m)^### {heading}\n\n.*\n--- .*\n((?:`.*\n)+)", page)
+        table = re.search(rf"(?m)^### {heading}\n\n.*\n---.*\n((?:`.*\n)+)", page)
         check(table, f"arrays.md has no table '{heading}'")
         for row in table[1].splitlines():
             names, kinds, meaning = row.split(" | ")
@@ -188,7 +188,7 @@ def check_columns(page, record):
     for heading, (file, columns_file, key) in TABLES.items():
         with open(file, newline="") as stream:
             written = next(csv.reader(stream))
-        place = re.search(rf"(?m)^### `{re.escape(heading)}`\n\n(column \|.*\n--- .*\n(?:`.*\n)*)", page)
+        place = re.search(rf"(?m)^### `{re.escape(heading)}`\n\n(column \|.*\n---.*\n(?:`.*\n)*)", page)
         check(place, f"arrays.md has no table of {heading}")
         columns = columns_of(columns_file, key)
         check(list(columns) == written, f"{columns_file} explains {list(columns)}, but {file} has {written}")

@@ -17,7 +17,8 @@ SCANS = {"whole": "box.nrrd", "pruned": "rod-thick-slices.nii.gz", "tolerance": 
          "refined": "box.nrrd", "branches": "capsule.mha"}  # fmt: skip
 # What 0.1 wrote and later versions refuse, with a word on why.
 REFUSED = {("0.1.0", "tolerance"): "0.1 pruned it by bumps", ("0.1.0", "branches"): "an older version wrote it"}
-GONE = {"0.1.0": {("CellData", "Bump"), ("PointData", "Bump")}}
+# Skeletons of 0.2.0 had the radius of sections under that name, and that of balls as Radius.
+GONE = {"0.1.0": {("CellData", "Bump"), ("PointData", "Bump")}, "0.2.0": {("PointData", "SectionRadius")}}
 
 
 def run(*words, code=0):

@@ -218,7 +218,7 @@ CompareMasks(CompareSide              a,
 {
   if (options.near)
   {
-    throw UsageError("--near is for skeletons and medial surfaces; masks are compared voxel by voxel");
+    throw UsageError("--near is for skeletons and medial surfaces, as masks are compared voxel by voxel; leave it out");
   }
   BringTogether(a, b, result.notes);
   const auto &               mapA = std::get<LabelMap>(a.content);
@@ -590,8 +590,8 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
   ReportProgress(context.progress, "writing", 0.95);
   if ((options.output || shown.AreAsked()) && result.kind != "skeletons")
   {
-    throw UsageError("--output, --html and --scene show branches of skeletons; " + options.a.string() + " and " +
-                     options.b.string() + " are none");
+    throw UsageError("--output, --html and --scene show branches of skeletons, which " + options.a.string() + " and " +
+                     options.b.string() + " are not; leave them out, or give skeletons");
   }
   if (shown.AreAsked())
   {

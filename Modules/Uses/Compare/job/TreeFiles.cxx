@@ -155,7 +155,7 @@ ReadSwc(const std::filesystem::path & path)
   }
   if (edges.positions.empty())
   {
-    throw InputError(path.string() + ": holds no point of a tree");
+    throw InputError(path.string() + ": holds no point of a tree; give the file of another, or export it anew");
   }
   model.parts.emplace_back();
   model.parts[0].graph = GraphOfEdges(std::move(edges));
@@ -316,7 +316,9 @@ SkeletonModel
 ReadRsml(const std::filesystem::path & path)
 {
   const RsmlWalk walk(ReadText(path));
-  const auto     refuse = [&](const std::string & what) { throw InputError(path.string() + ": " + what); };
+  const auto     refuse = [&](const std::string & what) {
+    throw InputError(path.string() + ": " + what + "; export it anew from the program that made it");
+  };
   if (!walk.wrong.empty())
   {
     refuse(walk.wrong);
