@@ -56,6 +56,19 @@ TEST(TreeComparison, ATreeIsAllFoundInItself)
   EXPECT_NEAR(same.radiusBias, 0, 1e-12);
 }
 
+TEST(TreeComparison, ALineOfAnyLengthIsCutIntoWhatMemoryHolds)
+{
+  for (const double length : { 1e9, 1e14 })
+  {
+    const SkeletonGraph far = GraphOf({ { { 0, 0, 0 }, { length, 0, 0 } } }, 1);
+    const SkeletonGraph near = GraphOf({ { { 0, 0, 0 }, { 40, 0, 0 } } }, 1);
+    EXPECT_EQ(TotalsOf(CompareTrees(near, far, {}).a).found, 1) << length;
+    EXPECT_EQ(TotalsOf(CompareTrees(far, far, {}).a).found, 1) << length;
+  }
+  const SkeletonGraph beyond = GraphOf({ { { 0, 0, 0 }, { 1e300, 0, 0 } } }, 1);
+  EXPECT_THROW(CompareTrees(beyond, beyond, {}), InputError);
+}
+
 TEST(TreeComparison, AShiftedLineIsOffByItsShift)
 {
   const SkeletonGraph  a = GraphOf({ { { 0, 0, 0 }, { 40, 0, 0 } } }, 1);

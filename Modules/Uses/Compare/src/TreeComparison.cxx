@@ -23,8 +23,11 @@ namespace
 {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSteps = 4;     ///< places a radius
-constexpr int    kHalvings = 40; ///< of a step: to its rounding
+constexpr double kSteps = 4;        ///< places a radius
+constexpr double kFarthest = 1e15;  ///< mm; squares of more than 1e150 overflow
+constexpr double kMostPlaces = 1e6; ///< of a skeleton. Of a vessel tree of 30 m there are 0.3 million; a damaged file's
+                                    ///< one far point would ask for all memory
+constexpr int kHalvings = 40;       ///< of a step: to its rounding
 
 struct Place
 {
@@ -485,7 +488,22 @@ CompareTrees(const SkeletonGraph & a, const SkeletonGraph & b, const TreeToleran
   {
     step = length > 0 ? std::min(step, length) : step;
   }
-  const Comparison comparison(a, b, tolerance.least, step / kSteps);
+  double longest = 0;
+  for (const SkeletonGraph * graph : { &a, &b })
+  {
+    const auto isFar = [](const Vector3 & place) { return !(Length(place) <= kFarthest); };
+    if (ranges::any_of(graph->positions, isFar))
+    {
+      throw InputError("a point is more than 1e15 mm from the origin; correct its coordinates");
+    }
+    double length = 0;
+    for (std::size_t branch = 0; branch < graph->BranchCount(); ++branch)
+    {
+      length += graph->BranchLength(branch);
+    }
+    longest = std::max(longest, length);
+  }
+  const Comparison comparison(a, b, tolerance.least, std::max(step / kSteps, longest / kMostPlaces));
   TreeComparison   compared;
   compared.a = comparison.Branches(true);
   compared.b = comparison.Branches(false);

@@ -68,7 +68,7 @@ struct TreeComparison
   double radiusError = 0; ///< the same without sign
 };
 
-/** \throws InputError where A has no radius and `least` is 0 */
+/** \throws InputError where A has no radius and `least` is 0, or a point is more than 1e15 mm from the origin */
 TreeComparison
 CompareTrees(const SkeletonGraph & a, const SkeletonGraph & b, const TreeTolerance & tolerance);
 
