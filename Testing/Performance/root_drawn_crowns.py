@@ -92,7 +92,7 @@ class Crown:
         return 1 + share * noise / max(noise.std(), 1e-9)
 
     def nodal(self, depth, around, high):
-        at = int(numpy.searchsorted(self.axis[:, 2], depth))
+        at = min(int(numpy.searchsorted(self.axis[:, 2], depth)), len(self.truth.lines[0]) - 1)  # of the stem itself
         steep = math.radians(self.uniform(35, 90) if high < 0.5 else self.uniform(25, 65))  # from straight down
         way = numpy.array([math.cos(around) * math.sin(steep), math.sin(around) * math.sin(steep), math.cos(steep)])
         thick = min(self.uniform(1.5, 4.5), 0.5 * self.radius)
