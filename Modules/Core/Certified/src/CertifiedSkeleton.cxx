@@ -319,9 +319,11 @@ MeasureCurves(const BurnedCurves &    burned,
   const BranchRequest & branches = request.branches;
   const BranchLimit     limit{ branches.pruneLength ? LengthOn(shape, *branches.pruneLength) : 0, branches.pruneRadii };
   fit();
-  // Past a twig that goes, a line may run into a dome and back.
-  while (PruneBranches(graph, limit) > 0 && fit() > 0)
-  {}
+  // Past a twig that goes, a line may run into a dome and back. A dome that is pruned then is not looked for again.
+  if (PruneBranches(graph, limit) > 0 && fit() > 0 && PruneBranches(graph, limit) > 0)
+  {
+    FitBranches(graph, window, reach, inside);
+  }
   if (window > 0 && StraightenPastDomes(graph, inside) > 0)
   {
     FitBranches(graph, window, reach, inside);
