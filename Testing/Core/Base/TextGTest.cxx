@@ -22,6 +22,15 @@ TEST(Text, OnlyZeroReadsAsZero)
   }
 }
 
+TEST(Text, RoughNumbersHaveNoExponent)
+{
+  EXPECT_EQ(RoughText(0.0123), "0.012");
+  EXPECT_EQ(RoughText(3.44), "3.4");
+  EXPECT_EQ(RoughText(97.6), "98");
+  EXPECT_EQ(RoughText(100), "100");
+  EXPECT_EQ(RoughText(123456), "123456");
+}
+
 TEST(Text, EveryPartIsThereAlsoEmptyOnes)
 {
   using Parts = std::vector<std::string>;

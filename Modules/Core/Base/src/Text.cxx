@@ -56,6 +56,12 @@ FixedText(double value, int decimals)
 }
 
 std::string
+RoughText(double value)
+{
+  return FixedText(value, value < 10 ? 1 : 0);
+}
+
+std::string
 ShortText(double value, int digits)
 {
   char text[40];

@@ -356,8 +356,7 @@ FindHollowBody(const VoxelShape &                  shape,
 std::string
 HollowText(const HollowBody & body)
 {
-  const std::string share = FixedText(body.share, body.share < 10 ? 1 : 0);
-  std::string       text = "looks hollow: it walls in " + share + " times its own volume (" +
+  std::string text = "looks hollow: it walls in " + RoughText(body.share) + " times its own volume (" +
                      Counted(body.voxels, "voxel", "voxels") + " of background), and its core follows the walls; ";
   return text + (body.holes == 0
                    ? "--fill-cavities or --fill-slices fills lumens"

@@ -147,8 +147,7 @@ DiagnoseTouching(const VoxelShape & shape)
 std::string
 ShareText(std::uint64_t part, std::uint64_t all)
 {
-  const double percent = 100 * static_cast<double>(part) / static_cast<double>(all);
-  return FixedText(percent, percent < 10 ? 1 : 0) + " %";
+  return RoughText(100 * static_cast<double>(part) / static_cast<double>(all)) + " %";
 }
 
 } // namespace voxelcore

@@ -8,8 +8,8 @@
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
-#include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
+#include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Labels/CropRange.h"
 #include "voxelcore/Models/AppendedVtp.h"
 #include "voxelcore/Shape/BodyFrame.h"
@@ -19,6 +19,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 #include <utility>
 
 namespace voxelcore
@@ -245,7 +246,6 @@ CompareMasks(CompareSide              a,
     labels.back().label = pairs[i].a ? labelA.value : labelB.value;
     labels.back().name = pairs[i].a ? labelA.name : labelB.name;
   }
-  result.kind = "masks";
   result.unit = mapA.geometry.unit;
   result.tables = TablesOf(labels, mapA.geometry);
 }
@@ -341,7 +341,6 @@ CompareSkeletons(CompareSide              a,
     (ofA ? result.treesA : result.treesB) = std::move(model);
   }
   RequireSameUnit(a.name, result.treesA.unit, b.name, result.treesB.unit);
-  result.kind = "skeletons";
   result.unit = result.treesA.unit;
   const TreeTolerance        tolerance{ NearOf(options, result.unit) };
   std::vector<ComparedTrees> labels;
@@ -400,7 +399,6 @@ CompareSurfaces(CompareSide a, CompareSide b, const CompareOptions & options, Co
     compared.found = CompareCores(partA.core, partB.core, near);
     labels.push_back(std::move(compared));
   }
-  result.kind = "cores";
   result.unit = modelA.unit;
   result.tables = TablesOf(labels, result.unit);
 }
@@ -477,6 +475,18 @@ Show(DisplayFiles &             shown,
   shown.Finish(report, notes, progress);
 }
 
+/** CompareResult::kind. */
+std::string
+KindOf(const CompareSide & a, const CompareSide & b)
+{
+  const auto both = [&]<typename T>(std::type_identity<T>) {
+    return std::holds_alternative<T>(a.content) && std::holds_alternative<T>(b.content);
+  };
+  return both(std::type_identity<LabelMap>())      ? "masks"
+         : both(std::type_identity<MedialModel>()) ? "cores"
+                                                   : "skeletons";
+}
+
 void
 Require(const std::optional<fs::path> & target, const char * option, const char * extension)
 {
@@ -536,14 +546,12 @@ CompareResult
 Compare(CompareSide a, CompareSide b, const CompareOptions & options, const ProgressCallback & progress)
 {
   CompareResult result;
-  const bool    areMasks = std::holds_alternative<LabelMap>(a.content) && std::holds_alternative<LabelMap>(b.content);
-  const bool    areCores =
-    std::holds_alternative<MedialModel>(a.content) && std::holds_alternative<MedialModel>(b.content);
-  if (areMasks)
+  result.kind = KindOf(a, b);
+  if (result.kind == "masks")
   {
     CompareMasks(std::move(a), std::move(b), options, result, progress);
   }
-  else if (areCores)
+  else if (result.kind == "cores")
   {
     CompareSurfaces(std::move(a), std::move(b), options, result);
   }
@@ -584,15 +592,15 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
   std::vector<std::string> warnings;
   CompareSide a = ReadCompareSide(options.a, options, warnings, PartOfProgress(context.progress, "reading", 0, 0.1));
   CompareSide b = ReadCompareSide(options.b, options, warnings, PartOfProgress(context.progress, "reading", 0.1, 0.2));
+  if ((options.output || shown.AreAsked()) && KindOf(a, b) != "skeletons")
+  {
+    throw UsageError("--output, --html and --scene show branches of skeletons, which " + a.name + " and " + b.name +
+                     " are not; leave them out, or give skeletons");
+  }
   CompareResult result =
     Compare(std::move(a), std::move(b), options, PartOfProgress(context.progress, "comparing", 0.2, 0.95));
   result.warnings = std::move(warnings);
   ReportProgress(context.progress, "writing", 0.95);
-  if ((options.output || shown.AreAsked()) && result.kind != "skeletons")
-  {
-    throw UsageError("--output, --html and --scene show branches of skeletons, which " + options.a.string() + " and " +
-                     options.b.string() + " are not; leave them out, or give skeletons");
-  }
   if (shown.AreAsked())
   {
     Show(shown, result, result.notes, PartOfProgress(context.progress, 0.95, 1));

@@ -434,20 +434,12 @@ WriteCompareCsv(const std::filesystem::path & path, const CompareTable & table, 
 std::string
 CompareColumnsJson(const std::vector<CompareTable> & tables)
 {
-  Json json = Json::object();
+  std::vector<std::pair<const char *, std::string>> meanings;
   for (const CompareTable & table : tables)
   {
-    for (const CompareColumn & column : table.columns)
-    {
-      Json & entry = json[table.name][column.name];
-      entry["Description"] = column.meaning;
-      if (!column.unit.empty())
-      {
-        entry["Units"] = column.unit;
-      }
-    }
+    meanings.emplace_back(table.name.c_str(), ColumnsJson(table.columns, SpatialUnit::Millimetres)); // units stay
   }
-  return json.dump(2) + "\n";
+  return TablesJson(meanings);
 }
 
 std::string
@@ -512,7 +504,7 @@ CompareTablesText(const std::vector<CompareTable> & tables)
   std::vector<std::vector<std::string>> rows(main.rows.size() + 1);
   for (const auto & [name, head] : shown)
   {
-    const auto found = ranges::find(main.columns, name, &CompareColumn::name);
+    const auto found = ranges::find(main.columns, name, &TextColumn::name);
     if (found == main.columns.end())
     {
       continue;
@@ -532,7 +524,7 @@ CompareTablesText(const std::vector<CompareTable> & tables)
   std::size_t           count = 0;
   const CompareTable &  places = tables[1];
   const auto            column = [&](const char * name) {
-    return static_cast<std::size_t>(ranges::find(places.columns, name, &CompareColumn::name) - places.columns.begin());
+    return static_cast<std::size_t>(ranges::find(places.columns, name, &TextColumn::name) - places.columns.begin());
   };
   const std::size_t change = column("change");
   const std::size_t voxels = column("voxels");

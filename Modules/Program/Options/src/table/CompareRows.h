@@ -16,8 +16,8 @@ inline constexpr auto kCompareRows = std::to_array<Parameter>({
     "",
     false,
     kCompare,
-    "Skeletons: take places as found no farther apart than L, such as 1mm, where A's radius is less; surfaces: the "
-    "distance up to which one covers the other" },
+    "Skeletons: count places as found up to L apart, such as 1mm, where A's radius is less; surfaces: count as covered "
+    "what lies within L of the other" },
   { "no-skeletons",
     "--no-skeletons",
     Flag,

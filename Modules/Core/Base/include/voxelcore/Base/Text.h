@@ -25,6 +25,10 @@ DecimalText(double value, int decimals);
 std::string
 FixedText(double value, int decimals = 2);
 
+/** A positive `value` in about two significant digits and without an exponent: "0.012", "3.4", "98", "120". */
+std::string
+RoughText(double value);
+
 /** `value` with up to `digits` significant digits and no more than it needs. */
 std::string
 ShortText(double value, int digits = 9);

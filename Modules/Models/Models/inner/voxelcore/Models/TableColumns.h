@@ -25,14 +25,6 @@ struct Column
   const char * meaning;
 };
 
-/** A column that is known when a table is written. */
-struct TextColumn
-{
-  std::string name;
-  std::string unit;
-  std::string meaning;
-};
-
 // What many tables begin with.
 constexpr Column kLabelColumn{ "label", "", "value of the label" };
 constexpr Column kNameColumn{ "name", "", "name of the label" };

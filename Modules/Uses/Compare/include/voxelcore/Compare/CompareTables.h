@@ -2,12 +2,12 @@
 // What a comparison found, as tables: each is written as .csv, stands in the report, and is what Python gets.
 
 #include "voxelcore/Base/SpatialUnit.h"
-#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Compare/CentrelineOverlap.h"
 #include "voxelcore/Compare/CoreComparison.h"
 #include "voxelcore/Compare/MaskComparison.h"
 #include "voxelcore/Compare/TreeComparison.h"
 #include "voxelcore/Lattice/ImageGeometry.h"
+#include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Skeleton/BranchTable.h"
 
 #include <cstdint>
@@ -23,18 +23,11 @@ namespace voxelcore
 /** Nothing where there is nothing to measure. */
 using CompareCell = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-struct CompareColumn
-{
-  std::string name;
-  std::string unit;
-  std::string meaning;
-};
-
 struct CompareTable
 {
-  std::string                           name; ///< "labels", "differences", "branches", "levels"
-  std::vector<CompareColumn>            columns;
-  std::vector<std::vector<CompareCell>> rows; ///< a cell a column
+  std::string                           name;    ///< "labels", "differences", "branches", "levels"
+  std::vector<TextColumn>               columns; ///< in the unit of what is compared
+  std::vector<std::vector<CompareCell>> rows;    ///< a cell a column
 };
 
 /** What is compared: a label of both. */
