@@ -19,11 +19,12 @@ function(voxelcore_library target)
   add_library(${target} STATIC ${ARGN})
   string(SUBSTRING ${target} 9 -1 name)
   add_library(VoxelCore::${name} ALIAS ${target})
-  target_include_directories(${target} PUBLIC
-    "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
-  if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/inner") # headers for other rooms, not for users
-    target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/inner>")
-  endif()
+  target_include_directories(${target} PUBLIC "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
+  foreach(folder include inner)
+    if(IS_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}/${folder}")
+      target_include_directories(${target} PUBLIC "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${folder}>")
+    endif()
+  endforeach()
   target_compile_features(${target} PUBLIC cxx_std_20)
   set(movable ON)
   if(EMSCRIPTEN) # whose programs have one address
