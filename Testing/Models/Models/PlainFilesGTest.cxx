@@ -1,7 +1,6 @@
-// Files written without VTK have the bytes that VTK's writers give them; those of .vtp once they are unpacked.
+// Files have the bytes that VTK's writers give them; those of .vtp once they are unpacked.
 
 #include "Models/Models/ModelFixtures.h"
-#include "PlainArrays.h"
 #include "VoxelCoreTesting/UnpackedVtp.h"
 #include "voxelcore/Models/ModelPolyData.h"
 
@@ -9,6 +8,7 @@
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <omp.h>
@@ -32,22 +32,35 @@ ExpectSame(const std::string & ours, const std::string & vtks)
   EXPECT_TRUE(ours == vtks) << "'" << ours.substr(from, 120) << "' instead of '" << vtks.substr(from, 120) << "'";
 }
 
+/** What VTK writes of polydata, in the form of ours once they are unpacked. */
 void
-ExpectVtksBytes(const MedialModel & model, bool keepEdges)
+WriteByVtk(const std::filesystem::path & path, vtkPolyData * data)
 {
-  const TemporaryFolder folder;
-  WritePlainVtk(folder / "ours.vtk", model, keepEdges);
-  WriteModel(folder / "vtks.vtk", "a.vtk", model, { false, keepEdges });
-  ExpectSame(ReadAll(folder / "ours.vtk"), ReadAll(folder / "vtks.vtk"));
-
-  WriteModel(folder / "ours.vtp", "a.vtp", model, { false, keepEdges });
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(MakePolyData(model, keepEdges));
-  writer->SetFileName((folder / "vtks.vtp").c_str());
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToNone();
   writer->SetHeaderTypeToUInt64();
   ASSERT_EQ(writer->Write(), 1);
+}
+
+void
+ExpectVtksBytes(const MedialModel & model, bool keepEdges)
+{
+  const TemporaryFolder folder;
+  WriteModel(folder / "ours.vtk", "a.vtk", model, { false, keepEdges });
+  vtkNew<vtkPolyDataWriter> legacyWriter;
+  legacyWriter->SetInputData(MakePolyData(model, keepEdges));
+  legacyWriter->SetFileName((folder / "vtks.vtk").c_str());
+  legacyWriter->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);
+  legacyWriter->SetFileTypeToBinary();
+  legacyWriter->SetHeader(("VoxelCore medial surface. SPACE=LPS Units=" + UnitName(model.unit)).c_str());
+  ASSERT_EQ(legacyWriter->Write(), 1);
+  ExpectSame(ReadAll(folder / "ours.vtk"), ReadAll(folder / "vtks.vtk"));
+
+  WriteModel(folder / "ours.vtp", "a.vtp", model, { false, keepEdges });
+  WriteByVtk(folder / "vtks.vtp", MakePolyData(model, keepEdges));
   ExpectSame(UnpackedVtp(ReadAll(folder / "ours.vtp")), ReadAll(folder / "vtks.vtp"));
 }
 

@@ -3,6 +3,7 @@
 #include "MeshBudget.h"
 #include "PageNumbers.h"
 #include "ShownMesh.h"
+#include "voxelcore/Base/Base64.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/LengthUnit.h"
 #include "voxelcore/Base/ParallelTasks.h"
@@ -187,7 +188,7 @@ public:
     {
       text += c == '<' ? std::string("\\u003c") : std::string(1, c);
     }
-    return { std::move(text), Base64(m_Numbers.Bytes()) };
+    return { std::move(text), ToBase64(m_Numbers.Bytes()) };
   }
 
 private:

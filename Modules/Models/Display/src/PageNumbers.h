@@ -39,9 +39,6 @@ private:
   std::vector<std::uint8_t> m_Bytes;
 };
 
-std::string
-Base64(const std::vector<std::uint8_t> & bytes);
-
 /** zlib's checksum: by it the page finds out whether its numbers are still what was written. */
 std::uint32_t
 Adler32(const std::vector<std::uint8_t> & bytes);

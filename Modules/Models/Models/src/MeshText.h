@@ -2,7 +2,7 @@
 // Meshes of text, line by line, every word checked. VTK has readers for most of these formats; they keep single
 // precision and take a file that is cut off for a whole one.
 
-#include "VtpFile.h"
+#include "UnfitFile.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/ReadMesh.h"
 
@@ -123,12 +123,6 @@ public:
     return text;
   }
 
-  std::size_t
-  LineNumber() const
-  {
-    return m_Number;
-  }
-
 private:
   static bool
   IsBlank(char c)
@@ -173,7 +167,8 @@ MeshFile
 ParsePly(std::string_view bytes);
 MeshFile
 ParseLegacyVtk(std::string_view bytes);
+/** As these, array by array. */
 MeshFile
-ParseVtp(std::string_view bytes);
+ReadVtpMesh(const std::filesystem::path & path);
 
 } // namespace voxelcore

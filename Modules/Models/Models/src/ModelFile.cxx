@@ -1,6 +1,5 @@
 #include "ModelSource.h"
 #include "SavedSource.h"
-#include "VtpFile.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/TextFields.h"
 
@@ -13,48 +12,6 @@ namespace voxelcore
 namespace
 {
 
-/** A file as a source. */
-class FileSource : public ModelSource
-{
-public:
-  explicit FileSource(const std::filesystem::path & path)
-    : m_File(path)
-  {}
-  std::uint64_t
-  PieceCount(const std::string & attribute) const override
-  {
-    return m_File.PieceCount(attribute);
-  }
-  bool
-  Has(const std::string & section, const std::string & name) const override
-  {
-    return m_File.Has(section, name);
-  }
-  std::vector<double>
-  ReadReals(const std::string & section, const std::string & name, int components) override
-  {
-    return m_File.Read<double>(section, name, components);
-  }
-  std::vector<std::int64_t>
-  ReadWholes(const std::string & section, const std::string & name, int components) override
-  {
-    return m_File.Read<std::int64_t>(section, name, components);
-  }
-  std::vector<std::int64_t>
-  ReadIndices(const std::string & section, const std::string & name) override
-  {
-    return m_File.ReadIndices(section, name);
-  }
-  std::string
-  ReadText(const std::string & section, const std::string & name) override
-  {
-    return m_File.ReadText(section, name);
-  }
-
-private:
-  VtpFile m_File;
-};
-
 std::string
 ReadOpened(const std::filesystem::path & path, const std::function<void(ModelSource &)> & read)
 {
@@ -66,14 +23,7 @@ ReadOpened(const std::filesystem::path & path, const std::function<void(ModelSou
   {
     return readAll(LegacySource(WholeFile(path)));
   }
-  try
-  {
-    return readAll(FileSource(path));
-  }
-  catch (const OtherForm &)
-  {
-    return readAll(XmlSource(WholeFile(path)));
-  }
+  return readAll(XmlSource(path));
 }
 
 } // namespace

@@ -11,7 +11,7 @@ namespace voxelcore
 void
 WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges);
 
-/** Legacy polydata, version 4.2, binary; the same content as .vtp. */
+/** Legacy polydata, version 4.2, binary, as Slicer writes it (5.1 is new to many tools); the same content as .vtp. */
 void
 WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges);
 

@@ -1,6 +1,6 @@
 #include "ModelCells.h"
 #include "ModelSource.h"
-#include "VtpFile.h"
+#include "UnfitFile.h"
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"

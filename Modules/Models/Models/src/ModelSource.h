@@ -13,7 +13,7 @@
 namespace voxelcore
 {
 
-/** Arrays by section and name, as VtpFile describes them. Functions throw UnfitFile for what is missing or of another
+/** Arrays by section and name, as VtpArrays describes them. Functions throw UnfitFile for what is missing or of another
  *  type or size. */
 class ModelSource
 {
@@ -54,9 +54,8 @@ public:
   }
 };
 
-/** Opens a file (.vtk: legacy, else .vtp) and calls `read` with it, maybe twice. A .vtp in WriteVtp's form is read
- *  array by array; what another program saved, as a whole. With Precision::Exact what has lost digits is refused.
- *  Returns what did (ModelSource::Rounded). `maker`: the command that writes such files. \throws InputError */
+/** Opens a file (.vtk: legacy, else .vtp) and calls `read` with it. With Precision::Exact what has lost digits is
+ *  refused. Returns what did (ModelSource::Rounded). `maker`: the command that writes such files. \throws InputError */
 std::string
 ReadFrom(const std::filesystem::path &              path,
          Precision                                  precision,

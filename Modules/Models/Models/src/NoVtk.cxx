@@ -2,18 +2,11 @@
 
 #include "ModelFormats.h"
 #include "VtpPacking.h"
-#include "PlainArrays.h"
-#include "VtpFile.h"
+#include "UnfitFile.h"
 #include "XmlUnpacking.h"
 
 namespace voxelcore
 {
-
-void
-WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
-{
-  WritePlainVtk(path, model, keepEdges);
-}
 
 std::string
 ModelLibrary()
@@ -38,16 +31,9 @@ MostGain(const std::string & compressor)
 }
 
 bool
-Unpack(const std::string &   compressor,
-       const unsigned char * from,
-       std::uint64_t         packed,
-       unsigned char *       to,
-       std::uint64_t         size)
+UnpackBlock(const std::string &, std::string_view packed, char * to, std::uint64_t size)
 {
-  MostGain(compressor);
-  return Inflate({ reinterpret_cast<const char *>(from), static_cast<std::size_t>(packed) },
-                 reinterpret_cast<char *>(to),
-                 size);
+  return Inflate(packed, to, size);
 }
 
 } // namespace voxelcore

@@ -1,5 +1,5 @@
 #pragma once
-// A model's arrays without VTK, and the legacy file VTK's writer would make of them, to the last byte.
+// A model's arrays in memory, as files of VTK's have them.
 
 #include "ModelSink.h"
 
@@ -77,9 +77,5 @@ private:
 
   std::deque<Array> m_Arrays; // whose addresses stay
 };
-
-/** WriteVtk without VTK. \throws OutputError, UsageError */
-void
-WritePlainVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges);
 
 } // namespace voxelcore

@@ -2,7 +2,7 @@
 
 #include "ModelCells.h"
 #include "ModelSource.h"
-#include "VtpFile.h"
+#include "UnfitFile.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Models/ReadMesh.h"

@@ -1,3 +1,6 @@
+// The legacy file that VTK's writer would make, to the last byte.
+
+#include "ModelFormats.h"
 #include "PlainArrays.h"
 
 #include "voxelcore/Base/OutputFile.h"
@@ -141,7 +144,7 @@ WriteCells(BigEndianFile & file, const PlainArrays & arrays, const char * sectio
 } // namespace
 
 void
-WritePlainVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
+WriteVtk(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
 {
   PlainArrays arrays;
   WriteParts(model, keepEdges, arrays);

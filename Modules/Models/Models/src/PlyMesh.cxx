@@ -1,10 +1,7 @@
-#include "MeshText.h"
+#include "MeshNumbers.h"
 #include "voxelcore/Base/TextFields.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
 #include <limits>
 
 namespace voxelcore
@@ -19,18 +16,12 @@ enum class Encoding
   Big
 };
 
-struct Scalar
-{
-  char        kind; ///< 'i'nteger, 'u'nsigned, 'f'loating
-  std::size_t bytes;
-};
-
 struct Property
 {
   std::string name;
-  Scalar      type;
+  NumberType  type;
   bool        isList = false;
-  Scalar      countType{ 'u', 1 };
+  NumberType  countType{ 'u', 1 };
 };
 
 struct Element
@@ -40,14 +31,14 @@ struct Element
   std::vector<Property> properties;
 };
 
-Scalar
+NumberType
 ScalarOf(const MeshText & text, std::string_view name)
 {
   struct Named
   {
     std::string_view one;
     std::string_view other;
-    Scalar           type;
+    NumberType       type;
   };
   static constexpr std::array<Named, 8> types{ { { "char", "int8", { 'i', 1 } },
                                                  { "uchar", "uint8", { 'u', 1 } },
@@ -91,7 +82,7 @@ public:
   }
 
   double
-  Next(const Scalar & type)
+  Next(const NumberType & type)
   {
     if (m_Encoding == Encoding::Text)
     {
@@ -101,26 +92,9 @@ public:
     {
       EndsEarly();
     }
-    std::array<char, 8> bytes{};
-    std::memcpy(bytes.data(), m_Body.data() + m_At, type.bytes);
+    const char * const at = m_Body.data() + m_At;
     m_At += type.bytes;
-    if ((m_Encoding == Encoding::Big) != (std::endian::native == std::endian::big))
-    {
-      std::reverse(bytes.data(), bytes.data() + type.bytes);
-    }
-    if (type.kind == 'f')
-    {
-      return type.bytes == 4 ? As<float>(bytes) : As<double>(bytes);
-    }
-    if (type.bytes == 4)
-    {
-      return type.kind == 'i' ? As<std::int32_t>(bytes) : As<std::uint32_t>(bytes);
-    }
-    if (type.bytes == 2)
-    {
-      return type.kind == 'i' ? As<std::int16_t>(bytes) : As<std::uint16_t>(bytes);
-    }
-    return type.kind == 'i' ? As<std::int8_t>(bytes) : As<std::uint8_t>(bytes);
+    return LoadNumber<double>(at, type, m_Encoding == Encoding::Big, false);
   }
 
   void
@@ -130,14 +104,6 @@ public:
   }
 
 private:
-  template <typename T>
-  static double
-  As(const std::array<char, 8> & bytes)
-  {
-    T value{};
-    std::memcpy(&value, bytes.data(), sizeof(T));
-    return static_cast<double>(value);
-  }
   [[noreturn]] void
   EndsEarly() const
   {

@@ -1,5 +1,5 @@
 #include "ModelSource.h"
-#include "VtpFile.h"
+#include "UnfitFile.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Models/ModelPolyData.h"
 

@@ -27,13 +27,16 @@ MeshFile
 ReadByExtension(const fs::path & path)
 {
   const std::string extension = Extension(path);
+  if (extension == ".vtp")
+  {
+    return ReadVtpMesh(path);
+  }
   const std::string bytes = WholeFile(path);
   RequireFit(!bytes.empty(), "it is empty");
   return extension == ".stl"   ? ParseStl(bytes)
          : extension == ".obj" ? ParseObj(bytes)
          : extension == ".ply" ? ParsePly(bytes)
          : extension == ".vtk" ? ParseLegacyVtk(bytes)
-         : extension == ".vtp" ? ParseVtp(bytes)
                                : ParseOff(bytes);
 }
 

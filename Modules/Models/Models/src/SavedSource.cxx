@@ -91,31 +91,35 @@ SavedSource::Missing(const std::string & section, const std::string & name)
   throw UnfitFile{ "its array " + section + "/" + name + " is missing" };
 }
 
-XmlSource::XmlSource(std::string bytes)
-  : m_Bytes(std::move(bytes))
-  , m_Data(ParseXmlPolyData(m_Bytes, true))
+XmlSource::XmlSource(const std::filesystem::path & path)
+  : m_File(path, VtpFile::Content::All)
 {
-  RequireFit(m_Data.pieces.size() == 1, "it has several pieces, or none");
+  RequireFit(m_File.pieces.size() == 1, "it has several pieces, or none");
 }
 
 std::uint64_t
 XmlSource::PieceCount(const std::string & attribute) const
 {
-  return XmlNumber(m_Data.pieces.front().counts, attribute, 0);
+  return m_File.pieces.front().Count(attribute);
+}
+
+const VtpArrays &
+XmlSource::ArraysOf(const std::string & section) const
+{
+  return section == "FieldData" ? m_File.fields : m_File.pieces.front().arrays;
 }
 
 bool
 XmlSource::Has(const std::string & section, const std::string & name) const
 {
-  const XmlArrayMap & arrays = section == "FieldData" ? m_Data.fields : m_Data.pieces.front().arrays;
-  return arrays.contains({ section, section == "Points" ? "" : name });
+  return ArraysOf(section).contains({ section, section == "Points" ? "" : name });
 }
 
-const XmlArray &
+const VtpArray &
 XmlSource::Find(const std::string & section, const std::string & name, int components) const
 {
-  const XmlArrayMap & arrays = section == "FieldData" ? m_Data.fields : m_Data.pieces.front().arrays;
-  const auto          found = arrays.find({ section, section == "Points" ? "" : name });
+  const VtpArrays & arrays = ArraysOf(section);
+  const auto        found = arrays.find({ section, section == "Points" ? "" : name });
   if (found == arrays.end())
   {
     Missing(section, name);
@@ -132,8 +136,8 @@ XmlSource::ReadReals(const std::string & section, const std::string & name, int 
   {
     return {};
   }
-  const XmlArray & array = Find(section, name, components);
-  auto             values = ReadXmlArray<double>(array, m_Data.encoding, section == "Points");
+  const VtpArray & array = Find(section, name, components);
+  auto             values = m_File.Read<double>(array, section == "Points");
   Remember(section == "Points" ? "points" : name, array.type, array.format == "ascii", values);
   return values;
 }
@@ -141,9 +145,8 @@ XmlSource::ReadReals(const std::string & section, const std::string & name, int 
 std::vector<std::int64_t>
 XmlSource::ReadWholes(const std::string & section, const std::string & name, int components)
 {
-  const XmlArray & array = Find(section, name, components);
-  return array.type.kind == 'f' ? AsWholes(ReadXmlArray<double>(array, m_Data.encoding))
-                                : ReadXmlArray<std::int64_t>(array, m_Data.encoding);
+  const VtpArray & array = Find(section, name, components);
+  return array.type.kind == 'f' ? AsWholes(m_File.Read<double>(array)) : m_File.Read<std::int64_t>(array);
 }
 
 std::vector<std::int64_t>
@@ -155,14 +158,7 @@ XmlSource::ReadIndices(const std::string & section, const std::string & name)
 std::string
 XmlSource::ReadText(const std::string & section, const std::string & name)
 {
-  const XmlArray & array = Find(section, name, 1);
-  RequireFit(array.isText, "an array is not one text");
-  std::string text;
-  for (const std::int64_t letter : ReadXmlArray<std::int64_t>(array, m_Data.encoding))
-  {
-    RequireFit(letter >= 0 && letter < 256, "a text is damaged");
-    text.push_back(static_cast<char>(letter));
-  }
+  std::string text = m_File.ReadTexts(Find(section, name, 1));
   RequireFit(!text.empty() && text.find('\0') == text.size() - 1, "a text is damaged");
   text.pop_back();
   return text;

@@ -4,7 +4,7 @@
 
 #include "LegacyPolyData.h"
 #include "ModelSource.h"
-#include "XmlPolyData.h"
+#include "VtpFile.h"
 
 #include <filesystem>
 #include <vector>
@@ -34,12 +34,12 @@ private:
   std::vector<std::string> m_Short;  ///< of what is text of few digits
 };
 
-/** .vtp as VTK, ParaView and Slicer write it: text, base64 or raw, of either byte order, compressed or not. */
+/** .vtp, as we write it or VTK, ParaView and Slicer. */
 class XmlSource : public SavedSource
 {
 public:
   /** \throws UnfitFile */
-  explicit XmlSource(std::string bytes);
+  explicit XmlSource(const std::filesystem::path & path);
   std::uint64_t
   PieceCount(const std::string & attribute) const override;
   bool
@@ -54,11 +54,12 @@ public:
   ReadText(const std::string & section, const std::string & name) override;
 
 private:
-  const XmlArray &
+  const VtpArrays &
+  ArraysOf(const std::string & section) const;
+  const VtpArray &
   Find(const std::string & section, const std::string & name, int components) const;
 
-  std::string m_Bytes;
-  XmlPolyData m_Data;
+  VtpFile m_File;
 };
 
 /** Legacy .vtk, text or binary, of every version. */

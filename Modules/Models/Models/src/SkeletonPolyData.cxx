@@ -1,6 +1,6 @@
 #include "voxelcore/Models/AppendedVtp.h"
 #include "ModelSource.h"
-#include "VtpFile.h"
+#include "UnfitFile.h"
 
 #include "voxelcore/Models/SkeletonModel.h"
 

@@ -23,11 +23,11 @@ RequireVtkReads(const std::filesystem::path & path, const MedialModel & model)
   }
   try
   {
-    const VtpFile file(path); // every count checked, on which VTK's reader relies
-  }
-  catch (const OtherForm &)
-  {
-    return false; // another program saved it, in a form where nobody checked
+    // Every count was checked, on which VTK's reader relies; not so in the forms of other programs.
+    if (!VtpFile(path, VtpFile::Content::All).IsOurs())
+    {
+      return false;
+    }
   }
   catch (const UnfitFile & unfit) // it was fit a moment ago: the disk fails, or somebody writes to it
   {

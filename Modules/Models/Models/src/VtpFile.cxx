@@ -1,121 +1,61 @@
 #include "VtpFile.h"
 
 #include "VtpPacking.h"
+#include "XmlUnpacking.h"
+#include "voxelcore/Base/Base64.h"
 #include "voxelcore/Base/TextFields.h"
-#include "voxelcore/Base/Library.h"
+#include "voxelcore/Base/XmlWalk.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
-#include <string_view>
+#include <type_traits>
 
 namespace voxelcore
 {
 namespace
 {
 
-constexpr std::string_view kDataTag = "<AppendedData encoding=\"raw\">";
+constexpr std::string_view kBlanks = " \r\n\t";
+/** As VTK's writer ends a file with appended data. */
 constexpr std::string_view kEnding = "\n  </AppendedData>\n</VTKFile>\n";
-constexpr std::uint64_t    kLongestHeader = std::uint64_t{ 1 } << 20; // ours takes 4 KB
-
-void
-RequireForm(bool condition, const char * reason)
-{
-  if (!condition)
-  {
-    throw OtherForm{ { reason } };
-  }
-}
 
 std::uint64_t
-Number(std::string_view text)
+NumberOf(const XmlAttributes & attributes, const std::string & name, std::int64_t otherwise)
 {
-  std::uint64_t number = 0;
-  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), number);
-  RequireFit(error == std::errc() && end == text.data() + text.size(), "a number in its header is damaged");
-  return number;
+  const auto found = attributes.find(name);
+  const auto number =
+    found == attributes.end() ? otherwise : ParseNumber<std::int64_t>(found->second, { 'i', sizeof(std::int64_t) });
+  RequireFit(number >= 0, "counts that cannot be");
+  return static_cast<std::uint64_t>(number);
 }
 
-/** Whether every ampersand begins one of the five entities that XML knows, and no tag begins. */
+/** The type of that name; 0 bytes where it is none. */
+NumberType
+TypeNamed(std::string_view name)
+{
+  static constexpr std::array<std::pair<std::string_view, NumberType>, 11> types{ { { "Int8", { 'i', 1 } },
+                                                                                    { "UInt8", { 'u', 1 } },
+                                                                                    { "Int16", { 'i', 2 } },
+                                                                                    { "UInt16", { 'u', 2 } },
+                                                                                    { "Int32", { 'i', 4 } },
+                                                                                    { "UInt32", { 'u', 4 } },
+                                                                                    { "Int64", { 'i', 8 } },
+                                                                                    { "UInt64", { 'u', 8 } },
+                                                                                    { "Float32", { 'f', 4 } },
+                                                                                    { "Float64", { 'f', 8 } },
+                                                                                    { "String", { 'u', 1 } } } };
+  const auto * const found = std::find_if(types.begin(), types.end(), [&](const auto & t) { return t.first == name; });
+  return found == types.end() ? NumberType{} : found->second;
+}
+
 bool
-IsText(std::string_view text)
+IsArray(std::string_view tag)
 {
-  for (std::size_t at = 0; at < text.size(); ++at)
-  {
-    const auto c = static_cast<unsigned char>(text[at]);
-    if (c == '<' || c == 0x7F || (c < ' ' && c != '\n' && c != '\t' && c != '\r'))
-    {
-      return false;
-    }
-    if (c == '&')
-    {
-      constexpr std::array<std::string_view, 5> entities{ "&amp;", "&lt;", "&gt;", "&quot;", "&apos;" };
-      const std::string_view                    rest = text.substr(at);
-      if (std::none_of(entities.begin(), entities.end(), [&](std::string_view one) { return rest.starts_with(one); }))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
+  return tag == "DataArray" || tag == "Array";
 }
 
-struct Tag
-{
-  std::string                        name;
-  std::map<std::string, std::string> attributes;
-  bool                               closes = false;  ///< </name>
-  bool                               isEmpty = false; ///< <name/>
-};
-
-/** The tag that begins at `at`, which moves behind it. */
-Tag
-ParseTag(std::string_view xml, std::size_t & at)
-{
-  const auto isNamePart = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-  };
-  const auto word = [&] {
-    const std::size_t begin = at;
-    while (at < xml.size() && isNamePart(xml[at]))
-    {
-      ++at;
-    }
-    RequireFit(at > begin && !(xml[begin] >= '0' && xml[begin] <= '9'), "its header is damaged");
-    return std::string(xml.substr(begin, at - begin));
-  };
-  const auto skipBlanks = [&] {
-    const std::size_t begin = at;
-    while (at < xml.size() && (xml[at] == ' ' || xml[at] == '\n'))
-    {
-      ++at;
-    }
-    return at > begin;
-  };
-  Tag tag;
-  ++at; // the bracket
-  tag.closes = xml.substr(at, 1) == "/";
-  at += tag.closes ? 1 : 0;
-  tag.name = word();
-  while (skipBlanks() && at < xml.size() && isNamePart(xml[at]))
-  {
-    const std::string key = word();
-    RequireFit(!tag.closes && xml.substr(at, 2) == "=\"", "its header is damaged");
-    const std::size_t begin = at + 2;
-    const std::size_t end = xml.find('"', begin);
-    RequireFit(end != std::string_view::npos && IsText(xml.substr(begin, end - begin)), "its header is damaged");
-    RequireFit(tag.attributes.emplace(key, xml.substr(begin, end - begin)).second, "its header is damaged");
-    at = end + 1;
-  }
-  tag.isEmpty = !tag.closes && xml.substr(at, 1) == "/";
-  at += tag.isEmpty ? 1 : 0;
-  RequireFit(xml.substr(at, 1) == ">", "its header is damaged");
-  ++at;
-  return tag;
-}
-
-/** Which elements stand in which; the file's own stands in none. */
+/** Which tags VTK's writer puts into which; the file's own stands in none. */
 bool
 MayStandIn(const std::string & name, const std::string & parent)
 {
@@ -124,339 +64,488 @@ MayStandIn(const std::string & name, const std::string & parent)
   const bool isHolder =
     parent == "Points" || parent == "FieldData" || std::count(ofPiece.begin(), ofPiece.end(), parent) > 0;
   return (name == "VTKFile" && parent.empty()) || (name == "PolyData" && parent == "VTKFile") ||
-         (name == "FieldData" && parent == "PolyData") || (name == "Piece" && parent == "PolyData") ||
-         (isPart && parent == "Piece") || ((name == "DataArray" || name == "Array") && isHolder) ||
-         (name == "InformationKey" && (parent == "DataArray" || parent == "Array")) ||
-         (name == "Value" && parent == "InformationKey");
-}
-
-/** Bytes of a value; 1 for the letters of strings, 0 for what VTK does not know. */
-std::uint64_t
-BytesOf(const std::string & type)
-{
-  static const std::map<std::string, std::uint64_t> bytes{ { "Int8", 1 },    { "UInt8", 1 },  { "Int16", 2 },
-                                                           { "UInt16", 2 },  { "Int32", 4 },  { "UInt32", 4 },
-                                                           { "Int64", 8 },   { "UInt64", 8 }, { "Float32", 4 },
-                                                           { "Float64", 8 }, { "String", 1 } };
-  const auto                                        found = bytes.find(type);
-  return found == bytes.end() ? 0 : found->second;
+         (name == "AppendedData" && parent == "VTKFile") || (name == "FieldData" && parent == "PolyData") ||
+         (name == "Piece" && parent == "PolyData") || (isPart && parent == "Piece") || (IsArray(name) && isHolder) ||
+         (name == "InformationKey" && IsArray(parent)) || (name == "Value" && parent == "InformationKey");
 }
 
 } // namespace
 
-VtpFile::VtpFile(const std::filesystem::path & path)
+std::uint64_t
+VtpPiece::Count(const std::string & name) const
+{
+  return NumberOf(counts, name, 0);
+}
+
+/** Fills a file's fields from its tags. */
+class VtpFile::Header : private XmlWalk
+{
+public:
+  Header(VtpFile & file, bool withData)
+    : m_File(file)
+    , m_WithData(withData)
+  {
+    const std::string trouble = Walk([&](char * to, std::size_t most) {
+      file.m_File.read(to, static_cast<std::streamsize>(most));
+      return static_cast<std::size_t>(file.m_File.gcount());
+    });
+    file.m_File.clear();
+    if (!trouble.empty())
+    {
+      throw UnfitFile{ trouble };
+    }
+    RequireFit(m_IsPolyData, "it holds no polydata");
+  }
+  using XmlWalk::EndedAt;
+
+private:
+  void
+  Begin(const std::string & name, const XmlAttributes & attributes, const std::string & within) override
+  {
+    m_File.m_IsOrderly = m_File.m_IsOrderly && MayStandIn(name, within);
+    if (name == "VTKFile")
+    {
+      ReadEncoding(attributes, within);
+    }
+    else if (name == "Piece")
+    {
+      RequireFit(within == "PolyData", "a piece is out of place");
+      m_File.pieces.push_back({ attributes, {} });
+    }
+    else if (name == "AppendedData")
+    {
+      const std::string encoding = AttributeOf(attributes, "encoding");
+      RequireFit(encoding == "raw" || encoding == "base64", "its appended data are neither raw nor base64");
+      m_File.m_IsAppendedRaw = encoding == "raw";
+      EndHere();
+    }
+    else if (IsArray(name))
+    {
+      AddArray(within, attributes);
+    }
+  }
+
+  void
+  End(const std::string & name, const std::string &) override
+  {
+    m_Array = IsArray(name) ? nullptr : m_Array;
+  }
+
+  void
+  Text(std::string_view text, const std::string & tag) override
+  {
+    if (m_Array != nullptr && IsArray(tag)) // not what keys within it say
+    {
+      m_Array->text.append(text);
+    }
+    else if (tag != "Value" && text.find_first_not_of(kBlanks) != std::string_view::npos)
+    {
+      m_File.m_IsOrderly = false;
+    }
+  }
+
+  void
+  ReadEncoding(const XmlAttributes & attributes, const std::string & within)
+  {
+    const std::string order = AttributeOf(attributes, "byte_order", "LittleEndian");
+    const std::string head = AttributeOf(attributes, "header_type", "UInt32");
+    RequireFit(within.empty() && AttributeOf(attributes, "type") == "PolyData", "it holds no polydata");
+    RequireFit(order == "LittleEndian" || order == "BigEndian", "an unknown order of bytes");
+    RequireFit(head == "UInt32" || head == "UInt64", "headers of an unknown type");
+    m_IsPolyData = true;
+    m_File.m_IsBigEndian = order == "BigEndian";
+    m_File.m_Head = TypeNamed(head);
+    m_File.m_Compressor = AttributeOf(attributes, "compressor");
+  }
+
+  void
+  AddArray(const std::string & section, const XmlAttributes & attributes)
+  {
+    const bool arePoints = section == "Points";
+    const bool areCells = section == "Polys" || section == "Strips" || section == "Verts" || section == "Lines";
+    const bool areValues = section == "PointData" || section == "CellData" || section == "FieldData";
+    const bool isOfMesh = arePoints || section == "Polys" || section == "Strips";
+    if (!isOfMesh && (!m_WithData || !(areCells || areValues)))
+    {
+      return;
+    }
+    RequireFit(section == "FieldData" || !m_File.pieces.empty(), "an array is out of place");
+    const std::string type = AttributeOf(attributes, "type");
+    VtpArray          array{ AttributeOf(attributes, "format", "ascii"),
+                    TypeNamed(type),
+                    NumberOf(attributes, "offset", 0),
+                    NumberOf(attributes, "NumberOfComponents", 1),
+                    NumberOf(attributes, "NumberOfTuples", 0),
+                    type == "String",
+                    {} };
+    RequireFit(areValues || array.components == (arePoints ? 3 : 1), "an array has the wrong number of components");
+    VtpArrays &       arrays = section == "FieldData" ? m_File.fields : m_File.pieces.back().arrays;
+    const std::string name = arePoints ? "" : AttributeOf(attributes, "Name");
+    const auto [place, isNew] = arrays.emplace(std::pair(section, name), std::move(array));
+    RequireFit(isNew || areValues, "an array is there twice");
+    m_Array = isNew ? &place->second : nullptr; // as VTK, which finds the first of a name
+    m_File.m_IsOrderly = m_File.m_IsOrderly && isNew;
+  }
+
+  VtpFile &  m_File;
+  bool       m_WithData;
+  bool       m_IsPolyData = false;
+  VtpArray * m_Array = nullptr;
+};
+
+/** Where an array's bytes come from, run by run. */
+class VtpFile::Source
+{
+public:
+  Source(VtpFile & file, const VtpArray & array)
+    : m_File(file)
+    , m_IsAppended(array.format == "appended")
+    , m_IsBase64(!m_IsAppended || !file.m_IsAppendedRaw)
+  {
+    if (m_IsAppended)
+    {
+      const std::uint64_t available = file.m_DataEnd - file.m_DataBegin;
+      RequireFit(array.offset <= available, "an array lies beyond its end");
+      m_At = file.m_DataBegin + array.offset;
+      m_Stored = available - array.offset;
+      return;
+    }
+    RequireFit(array.format == "binary", "an array has an unknown format");
+    m_Text = array.text;
+    m_Stored = m_Text.size();
+  }
+
+  /** How many bytes are there at most. */
+  std::uint64_t
+  Left() const
+  {
+    return m_IsBase64 ? m_Stored / 4 * 3 : m_Stored;
+  }
+
+  /** The next bytes are one run, which in base64 begins with the next four letters. */
+  void
+  BeginRun(std::uint64_t bytes)
+  {
+    RequireFit(bytes <= Left(), "an array lies beyond its end");
+    if (!m_IsBase64)
+    {
+      return;
+    }
+    std::string      appended(m_IsAppended ? (bytes + 2) / 3 * 4 : 0, '\0');
+    std::string_view text = m_Text;
+    if (m_IsAppended)
+    {
+      ReadFile(appended.data(), appended.size());
+      text = appended;
+    }
+    m_Run = FromBase64(text, bytes);
+    m_RunAt = 0;
+    RequireFit(m_Run.size() == bytes, "its base64 is damaged");
+    if (!m_IsAppended)
+    {
+      m_Text = text;
+      m_Stored = text.size();
+    }
+  }
+
+  /** The next bytes of the run. */
+  void
+  Take(char * to, std::uint64_t count)
+  {
+    if (!m_IsBase64)
+    {
+      ReadFile(to, count);
+      return;
+    }
+    m_Run.copy(to, count, m_RunAt);
+    m_RunAt += count;
+  }
+
+  std::string
+  Take(std::uint64_t count)
+  {
+    std::string bytes(count, '\0');
+    Take(bytes.data(), count);
+    return bytes;
+  }
+
+private:
+  void
+  ReadFile(char * to, std::uint64_t count)
+  {
+    RequireFit(count <= m_Stored, "an array lies beyond its end");
+    m_File.m_File.seekg(static_cast<std::streamoff>(m_At));
+    RequireFit(bool(m_File.m_File.read(to, static_cast<std::streamsize>(count))), "it cannot be read");
+    m_At += count;
+    m_Stored -= count;
+  }
+
+  VtpFile &        m_File;
+  bool             m_IsAppended;
+  bool             m_IsBase64;
+  std::string_view m_Text;       ///< the rest of an array that is not appended
+  std::uint64_t    m_At = 0;     ///< in the file, of one that is
+  std::uint64_t    m_Stored = 0; ///< bytes or letters from there on
+  std::string      m_Run;        ///< of base64
+  std::size_t      m_RunAt = 0;
+};
+
+struct VtpFile::Blocks
+{
+  struct Block
+  {
+    std::uint64_t stored;
+    std::uint64_t bytes;
+  };
+
+  Source             source; ///< before the first
+  std::vector<Block> blocks;
+  std::uint64_t      bytes = 0; ///< of all, unpacked
+};
+
+VtpFile::VtpFile(const std::filesystem::path & path, Content content)
   : m_File(path, std::ios::binary)
 {
   RequireFit(m_File.is_open(), "it cannot be opened");
+  std::string begin(8, '\0');
+  m_File.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  RequireFit(m_File.gcount() > 0, "it is empty");
+  RequireFit(begin.starts_with("<VTKFile") || begin.starts_with("<?xml"), "it is no VTK file in XML");
   m_File.seekg(0, std::ios::end);
-  const auto  size = static_cast<std::uint64_t>(m_File.tellg());
-  std::string header(std::min(size, kLongestHeader), '\0');
+  const auto size = static_cast<std::uint64_t>(m_File.tellg());
   m_File.seekg(0);
-  RequireFit(bool(m_File.read(header.data(), static_cast<std::streamsize>(header.size()))), "it cannot be read");
-  RequireFit(header.rfind("<VTKFile", 0) == 0 || header.rfind("<?xml", 0) == 0, "it is no VTK file in XML");
-
-  const std::size_t tag = header.find(kDataTag);
-  RequireForm(tag != std::string::npos, "it holds no raw appended data, so it was not written by VoxelCore");
-  const std::size_t mark = header.find_first_not_of(" \n", tag + kDataTag.size());
-  RequireFit(mark != std::string::npos && header[mark] == '_', "its appended data are damaged");
-  m_DataBegin = mark + 1;
-  std::string ending(kEnding.size(), '\0');
-  RequireFit(size >= m_DataBegin + kEnding.size(), "it ends too early");
-  m_DataEnd = size - kEnding.size();
-  m_File.seekg(static_cast<std::streamoff>(m_DataEnd));
-  RequireFit(m_File.read(ending.data(), static_cast<std::streamsize>(ending.size())) && ending == kEnding,
-             "it ends too early");
-  ParseHeader(header.substr(0, tag));
-  CheckArrays();
-}
-
-void
-VtpFile::ParseHeader(const std::string & xml)
-{
-  const auto isBlank = [&xml](std::size_t from, std::size_t to) {
-    return xml.find_first_not_of(" \n", from) >= std::min(to, xml.size());
-  };
-  std::vector<std::string> open;
-  std::size_t              at = xml.starts_with("<?xml") ? xml.find("?>") : 0;
-  RequireFit(at != std::string::npos, "its header is damaged");
-  at += at > 0 ? 2 : 0;
-  while (true)
+  const bool          withData = content == Content::All;
+  const std::uint64_t dataTag = Header(*this, withData).EndedAt();
+  if (dataTag > 0)
   {
-    const std::size_t begin = std::min(xml.find('<', at), xml.size());
-    const std::string around = open.empty() ? "" : open.back();
-    RequireFit(isBlank(at, begin) || (around == "Value" && IsText(std::string_view(xml).substr(at, begin - at))),
-               "its header is damaged");
-    if (begin == xml.size())
+    const auto part = [&](std::uint64_t from, std::uint64_t to) {
+      std::string text(to - from, '\0');
+      m_File.seekg(static_cast<std::streamoff>(from));
+      RequireFit(bool(m_File.read(text.data(), static_cast<std::streamsize>(text.size()))), "it cannot be read");
+      return text;
+    };
+    constexpr std::uint64_t room = 256; // what stands around the data, blanks included
+    const std::string       first = part(dataTag, std::min(size, dataTag + room));
+    const std::size_t       mark = first.find_first_not_of(kBlanks);
+    RequireFit(mark != std::string::npos && first[mark] == '_', "its appended data are damaged");
+    m_DataBegin = dataTag + mark + 1;
+    const std::uint64_t lastAt = std::max(m_DataBegin, std::max(size, room) - room);
+    const std::string   lastText = part(lastAt, size);
+    std::string_view    last = lastText;
+    for (const std::string_view ending : { "</VTKFile>", "</AppendedData>" })
     {
-      break;
+      last = last.substr(0, last.find_last_not_of(kBlanks) + 1);
+      RequireFit(last.ends_with(ending), "it ends too early");
+      last.remove_suffix(ending.size());
     }
-    at = begin;
-    Tag tag = ParseTag(xml, at);
-    if (tag.closes)
-    {
-      RequireFit(around == tag.name, "its header is damaged");
-      open.pop_back();
-      continue;
-    }
-    if (tag.name == "VTKFile")
-    {
-      RequireFit(tag.attributes["type"] == "PolyData", "it is VTK data of another kind than polydata");
-      const auto compressor = tag.attributes.find("compressor");
-      m_IsPacked = compressor != tag.attributes.end();
-      RequireForm(tag.attributes["byte_order"] == "LittleEndian" && tag.attributes["header_type"] == "UInt64" &&
-                    (!m_IsPacked || compressor->second == kCompressor),
-                  "it was written by another program than VoxelCore");
-    }
-    RequireFit(MayStandIn(tag.name, around), "its header is damaged");
-    if (tag.name == "Piece")
-    {
-      RequireFit(m_Piece.empty(), "it has several pieces");
-      m_Piece = tag.attributes;
-    }
-    else if (tag.name == "DataArray" || tag.name == "Array")
-    {
-      AddArray(around, tag.attributes);
-    }
-    if (!tag.isEmpty)
-    {
-      open.push_back(tag.name);
-    }
+    m_DataEnd = lastAt + last.size();
+    m_IsOrderly = m_IsOrderly && lastText.ends_with(kEnding);
   }
-  // What is still open holds the appended data, which are the rest of the file.
-  RequireFit(open == std::vector<std::string>{ "VTKFile" } && !m_Piece.empty(), "its header is damaged");
+  if (withData && IsOurs())
+  {
+    CheckOurs();
+  }
 }
 
-void
-VtpFile::AddArray(const std::string & section, std::map<std::string, std::string> & attributes)
+bool
+VtpFile::IsOurs() const
 {
-  RequireForm(attributes["format"] == "appended", "an array is not in the appended data");
-  const auto number = [&](const char * name, std::uint64_t otherwise) {
-    const auto found = attributes.find(name);
-    return found == attributes.end() ? otherwise : Number(found->second);
+  const auto areOurs = [](const VtpArrays & arrays) {
+    return std::all_of(arrays.begin(), arrays.end(), [](const auto & entry) {
+      return entry.second.format == "appended" && entry.second.type.bytes > 0;
+    });
   };
-  const Array array{ attributes["type"],
-                     number("NumberOfComponents", 1),
-                     number("NumberOfTuples", 0),
-                     Number(attributes["offset"]) };
-  RequireFit(array.components > 0, "an array has no components");
-  RequireFit(m_Arrays.emplace(std::pair(section, attributes["Name"]), array).second, "an array is there twice");
+  return m_DataBegin > 0 && m_IsAppendedRaw && !m_IsBigEndian && m_Head.bytes == sizeof(std::uint64_t) &&
+         (m_Compressor.empty() || m_Compressor == kCompressor) && areOurs(fields) &&
+         std::all_of(pieces.begin(), pieces.end(), [&](const VtpPiece & piece) { return areOurs(piece.arrays); });
 }
 
-// Also those that nobody here asks for: a program that trusts them would read beyond them.
-void
-VtpFile::CheckArrays()
+std::uint64_t
+VtpFile::MostAppended() const
 {
-  const std::uint64_t points = PieceCount("NumberOfPoints");
+  const std::uint64_t stored = m_DataEnd - m_DataBegin;
+  return stored > 0 && !m_Compressor.empty() ? stored * MostGain(m_Compressor) : stored;
+}
+
+// Also of arrays that nobody here asks for: a program that trusts their counts would read beyond them.
+void
+VtpFile::CheckOurs()
+{
+  RequireFit(pieces.size() == 1, "it has several pieces, or none");
+  RequireFit(m_IsOrderly, "its header or its end is damaged");
+  const VtpPiece &    piece = pieces.front();
+  const std::uint64_t points = piece.Count("NumberOfPoints");
   std::uint64_t       cells = 0;
-  for (const char * kind : { "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys" })
+  for (const char * kind : { "NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys" })
   {
-    const std::uint64_t count = PieceCount(kind);
-    RequireFit(count <= m_DataEnd - m_DataBegin, "its numbers of cells do not add up");
-    cells += count;
+    RequireFit(piece.counts.contains(kind), "its header is damaged");
+    const std::uint64_t count = piece.Count(kind);
+    RequireFit(count <= MostAppended(), "its numbers of cells do not add up");
+    cells += kind == std::string_view("NumberOfPoints") ? 0 : count;
   }
-  for (const auto & [key, array] : m_Arrays)
-  {
-    const auto & [section, name] = key;
-    const std::uint64_t size = BytesOf(array.type);
-    RequireForm(size != 0, "an array has a type that VTK does not know");
-    const std::uint64_t bytes = OpenBlock(array);
-    RequireFit(bytes % size == 0 && bytes / size % array.components == 0, "an array is cut off");
-    std::uint64_t tuples = bytes / size / array.components;
-    if (array.type == "String")
+  const auto check = [&](const std::string & section, const std::string & name, const VtpArray & array) {
+    RequireFit(array.text.find_first_not_of(kBlanks) == std::string::npos, "its header is damaged");
+    RequireFit(array.components > 0, "an array has no components");
+    std::uint64_t values = Open(array).bytes;
+    RequireFit(values % array.type.bytes == 0, "an array is cut off");
+    values /= array.type.bytes;
+    if (array.isText)
     {
-      const std::string text = ReadOpenedText(bytes);
-      tuples = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\0'));
+      const std::string text = ReadTexts(array);
       RequireFit(text.empty() || text.back() == '\0', "a text is damaged");
-      RequireFit(tuples % array.components == 0, "an array is cut off");
-      tuples /= array.components;
+      values = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\0'));
     }
-    const bool isCells =
-      section != "FieldData" && section != "PointData" && section != "CellData" && section != "Points";
-    const bool fits = section == "FieldData"                          ? tuples == array.tuples
-                      : section == "PointData" || section == "Points" ? tuples == points
-                      : section == "CellData"                         ? tuples == cells
-                      : name == "offsets"                             ? tuples == PieceCount("NumberOf" + section)
-                                                                      : name == "connectivity";
-    if (!fits || (isCells && array.components != 1))
+    RequireFit(values % array.components == 0, "an array is cut off");
+    const std::uint64_t tuples = values / array.components;
+    const bool          fits = section == "FieldData"                          ? tuples == array.tuples
+                               : section == "PointData" || section == "Points" ? tuples == points
+                               : section == "CellData"                         ? tuples == cells
+                               : name == "offsets" ? tuples == piece.Count("NumberOf" + section)
+                                                   : name == "connectivity";
+    if (!fits)
     {
-      throw UnfitFile{ "its array " + section + "/" + Printable(name) + " has the wrong length" };
+      throw UnfitFile{ "its array " + section + "/" + (section == "Points" ? section : Printable(name)) +
+                       " has the wrong length" };
     }
-  }
-}
-
-std::uint64_t
-VtpFile::PieceCount(const std::string & attribute) const
-{
-  const auto found = m_Piece.find(attribute);
-  RequireFit(found != m_Piece.end(), "its header is damaged");
-  // VTK leaves room behind a number it fills in later, but outside the quotes.
-  return Number(found->second);
-}
-
-const VtpFile::Array &
-VtpFile::Find(const std::string & section, const std::string & name) const
-{
-  const auto found = m_Arrays.find({ section, name });
-  if (found == m_Arrays.end())
-  {
-    throw UnfitFile{ "its array " + section + "/" + name + " is missing" };
-  }
-  return found->second;
-}
-
-void
-VtpFile::ReadAt(std::uint64_t offset, char * to, std::uint64_t bytes)
-{
-  const std::uint64_t available = m_DataEnd - m_DataBegin;
-  RequireFit(offset <= available && bytes <= available - offset, "an array lies beyond its end");
-  m_File.seekg(static_cast<std::streamoff>(m_DataBegin + offset));
-  RequireFit(bool(m_File.read(to, static_cast<std::streamsize>(bytes))), "it cannot be read");
-}
-
-std::uint64_t
-VtpFile::OpenBlock(const Array & array)
-{
-  const auto number = [&](std::uint64_t index) {
-    RequireFit(array.offset <= m_DataEnd - m_DataBegin, "an array lies beyond its end");
-    std::array<char, 8> bytes;
-    ReadAt(array.offset + bytes.size() * index, bytes.data(), bytes.size());
-    std::uint64_t value = 0;
-    for (std::size_t byte = bytes.size(); byte-- > 0;)
-    {
-      value = value << 8U | static_cast<unsigned char>(bytes[byte]);
-    }
-    return value;
   };
-  const std::uint64_t available = m_DataEnd - m_DataBegin;
-  const std::uint64_t first = number(0);
-  m_Stretches.clear();
-  if (!m_IsPacked)
+  for (const VtpArrays * const arrays : { &std::as_const(fields), &piece.arrays })
   {
-    RequireFit(first <= available, "an array lies beyond its end");
-    m_Stretches.push_back({ first, first });
-    m_Opened = array.offset + 8;
-  }
-  else
-  {
-    const std::uint64_t size = number(1);
-    const std::uint64_t last = number(2);
-    RequireFit(first <= available / 8, "its compressed blocks are damaged");
-    std::uint64_t packed = 0;
-    for (std::uint64_t block = 0; block < first; ++block)
+    for (const auto & [key, array] : *arrays)
     {
-      const Stretch stretch{ number(3 + block), block + 1 == first && last > 0 ? last : size };
-      // No more memory is asked for than the file can fill.
-      RequireFit(stretch.packed <= available && stretch.bytes / kMostInflated <= stretch.packed,
-                 "its compressed blocks are damaged");
-      packed += stretch.packed;
-      RequireFit(packed <= available, "an array lies beyond its end");
-      m_Stretches.push_back(stretch);
+      check(key.first, key.second, array);
     }
-    m_Opened = array.offset + 8 * (3 + first);
   }
-  std::uint64_t packed = 0;
-  std::uint64_t bytes = 0;
-  for (const Stretch & stretch : m_Stretches)
+}
+
+VtpFile::Blocks
+VtpFile::Open(const VtpArray & array)
+{
+  Blocks     opened{ Source(*this, array), {}, 0 };
+  Source &   source = opened.source;
+  Source     ahead(*this, array);
+  const auto number = [&](const std::string & head, std::uint64_t index) {
+    const char * const at = head.data() + index * m_Head.bytes;
+    return static_cast<std::uint64_t>(LoadNumber<std::int64_t>(at, m_Head, m_IsBigEndian));
+  };
+  if (m_Compressor.empty())
   {
-    packed += stretch.packed;
-    bytes += stretch.bytes;
+    ahead.BeginRun(m_Head.bytes);
+    const std::uint64_t bytes = number(ahead.Take(m_Head.bytes), 0);
+    RequireFit(bytes <= source.Left() - m_Head.bytes, "an array lies beyond its end");
+    source.BeginRun(m_Head.bytes + bytes);
+    (void)source.Take(m_Head.bytes);
+    opened.blocks.push_back({ bytes, bytes });
+    opened.bytes = bytes;
+    return opened;
   }
-  RequireFit(m_Opened <= available && packed <= available - m_Opened, "an array lies beyond its end");
-  return bytes;
+  // Blocks of equal size but the last; each size, and each packed size, stands before them.
+  ahead.BeginRun(3 * m_Head.bytes);
+  const std::string   sizes = ahead.Take(3 * m_Head.bytes);
+  const std::uint64_t count = number(sizes, 0);
+  RequireFit(count <= source.Left() / m_Head.bytes, "its compressed blocks are damaged");
+  source.BeginRun((3 + count) * m_Head.bytes);
+  const std::string   head = source.Take((3 + count) * m_Head.bytes);
+  const std::uint64_t mostGain = MostGain(m_Compressor);
+  std::uint64_t       stored = 0;
+  for (std::uint64_t i = 0; i < count; ++i)
+  {
+    const bool          isShort = i + 1 == count && number(sizes, 2) != 0;
+    const Blocks::Block block{ number(head, 3 + i), number(sizes, isShort ? 2 : 1) };
+    // No more memory is asked for than the file can fill.
+    RequireFit(block.stored <= source.Left() && block.bytes <= block.stored * mostGain,
+               "its compressed blocks are damaged");
+    stored += block.stored;
+    RequireFit(stored <= source.Left(), "an array lies beyond its end");
+    opened.bytes += block.bytes;
+    opened.blocks.push_back(block);
+  }
+  source.BeginRun(stored);
+  return opened;
 }
 
 void
-VtpFile::ReadOpened(char * to)
+VtpFile::Unpack(Blocks & opened, char * to)
 {
-  std::string   packed;
-  std::uint64_t at = m_Opened;
-  for (const Stretch & stretch : m_Stretches)
+  for (const Blocks::Block & block : opened.blocks)
   {
-    if (m_IsPacked)
+    if (m_Compressor.empty())
     {
-      packed.resize(stretch.packed);
-      ReadAt(at, packed.data(), packed.size());
-      RequireFit(Inflate(packed, to, stretch.bytes), "its compressed blocks are damaged");
+      opened.source.Take(to, block.bytes);
     }
     else
     {
-      ReadAt(at, to, stretch.bytes);
+      const std::string packed = opened.source.Take(block.stored);
+      RequireFit(UnpackBlock(m_Compressor, packed, to, block.bytes), "its compressed blocks are damaged");
     }
-    at += stretch.packed;
-    to += stretch.bytes;
+    to += block.bytes;
   }
-}
-
-std::string
-VtpFile::ReadOpenedText(std::uint64_t bytes)
-{
-  std::string text(bytes, '\0');
-  ReadOpened(text.data());
-  return text;
 }
 
 template <typename Value>
 std::vector<Value>
-VtpFile::ReadBlock(const Array & array)
+VtpFile::Read(const VtpArray & array, bool finite)
 {
-  const std::uint64_t bytes = OpenBlock(array);
-  RequireFit(bytes % sizeof(Value) == 0, "an array is cut off");
-  std::vector<Value> values(bytes / sizeof(Value));
-  ReadOpened(reinterpret_cast<char *>(values.data()));
-  if constexpr (std::endian::native == std::endian::big)
+  RequireFit(array.type.bytes > 0, "an array is of an unknown type");
+  std::vector<Value> numbers;
+  if (array.format == "ascii")
   {
-    for (Value & value : values)
+    MeshText text(array.text);
+    while (text.NextLine('\0'))
     {
-      auto * raw = reinterpret_cast<char *>(&value);
-      std::reverse(raw, raw + sizeof(value));
+      for (std::string_view word = text.Word(); !word.empty(); word = text.Word())
+      {
+        numbers.push_back(ParseNumber<Value>(word, array.type, finite));
+      }
     }
+    return numbers;
   }
-  return values;
-}
-
-template <typename Value>
-std::vector<Value>
-VtpFile::Read(const std::string & section, const std::string & name, int components)
-{
-  const Array & array = Find(section, name);
-  const char *  type = std::is_same_v<Value, double> ? "Float64" : "Int64";
-  if (array.type != type || array.components != static_cast<std::uint64_t>(components))
+  Blocks opened = Open(array);
+  RequireFit(opened.bytes % array.type.bytes == 0, "an array ends in the middle of a number");
+  constexpr bool isReal = std::is_same_v<Value, double>;
+  if (array.type.kind == (isReal ? 'f' : 'i') && array.type.bytes == sizeof(Value) &&
+      m_IsBigEndian == (std::endian::native == std::endian::big))
   {
-    throw OtherForm{ { "its array " + section + "/" + name + " has the wrong type" } };
+    numbers.resize(opened.bytes / sizeof(Value));
+    Unpack(opened, reinterpret_cast<char *>(numbers.data()));
+    if constexpr (isReal)
+    {
+      RequireFit(!finite || std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); }),
+                 "a coordinate is not a finite number");
+    }
+    return numbers;
   }
-  std::vector<Value> values = ReadBlock<Value>(array);
-  RequireFit(values.size() % array.components == 0, "an array is cut off");
-  return values;
+  std::string bytes(opened.bytes, '\0');
+  Unpack(opened, bytes.data());
+  numbers.reserve(bytes.size() / array.type.bytes);
+  for (std::size_t at = 0; at < bytes.size(); at += array.type.bytes)
+  {
+    numbers.push_back(LoadNumber<Value>(bytes.data() + at, array.type, m_IsBigEndian, finite));
+  }
+  return numbers;
 }
 
 template std::vector<double>
-VtpFile::Read<double>(const std::string &, const std::string &, int);
+VtpFile::Read<double>(const VtpArray &, bool);
 template std::vector<std::int64_t>
-VtpFile::Read<std::int64_t>(const std::string &, const std::string &, int);
-
-std::vector<std::int64_t>
-VtpFile::ReadIndices(const std::string & section, const std::string & name)
-{
-  const Array & array = Find(section, name);
-  if (array.type == "Int32" && array.components == 1)
-  {
-    const std::vector<std::int32_t> values = ReadBlock<std::int32_t>(array);
-    return { values.begin(), values.end() };
-  }
-  return Read<std::int64_t>(section, name);
-}
+VtpFile::Read<std::int64_t>(const VtpArray &, bool);
 
 std::string
-VtpFile::ReadText(const std::string & section, const std::string & name)
+VtpFile::ReadTexts(const VtpArray & array)
 {
-  const Array & array = Find(section, name);
-  if (array.type != "String")
+  RequireFit(array.isText, "an array is not one text");
+  if (array.format != "ascii")
   {
-    throw UnfitFile{ "its array " + section + "/" + name + " has the wrong type" };
+    Blocks      opened = Open(array);
+    std::string text(opened.bytes, '\0');
+    Unpack(opened, text.data());
+    return text;
   }
-  std::string text = ReadOpenedText(OpenBlock(array));
-  RequireFit(!text.empty() && text.find('\0') == text.size() - 1, "a text is damaged");
-  text.pop_back();
+  std::string text;
+  for (const std::int64_t letter : Read<std::int64_t>(array))
+  {
+    RequireFit(letter >= 0 && letter < 256, "a text is damaged");
+    text.push_back(static_cast<char>(letter));
+  }
   return text;
 }
 

@@ -1,124 +1,105 @@
 #pragma once
-// The arrays of a .vtp file in the form WriteVtp gives it: appended data, little endian, 64-bit headers; in zlib's
-// streams, or as they are, as former versions wrote them.
-//
-// The header must be well-formed, and every array must have the length that the file's counts give it, also those that
-// nobody here asks for: what VTK could not open, or would read otherwise, is refused.
+// VTK's polydata in XML, .vtp: its tags, and its arrays in all their encodings: as text, as base64 or raw, plain or
+// packed. What is appended stays in the file until it is asked for.
 //
 // VTK's own reader trusts the numbers in a file: one wrong bit in a count makes it write beyond its memory. What a user
-// hands over may be damaged, so the few forms we write are read here, with every number checked against the file.
+// hands over may be damaged, so every number is checked here against what the file has.
 
-#include <cstdint>
-#include <filesystem>
+#include "MeshNumbers.h"
+
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
 {
 
-/** Ends reading: the file is damaged or not one of ours; the reason begins in the middle of a sentence. */
-struct UnfitFile
+/** An array as its tag describes it. */
+struct VtpArray
 {
-  std::string reason;
+  std::string   format;     ///< ascii, binary or appended
+  NumberType    type;       ///< 0 bytes where VTK does not know it
+  std::uint64_t offset = 0; ///< into the appended data
+  std::uint64_t components = 1;
+  std::uint64_t tuples = 0;     ///< as said of a field array
+  bool          isText = false; ///< strings, each with a 0 behind it; their letters are the numbers
+  std::string   text;           ///< what stands between its tags
 };
 
-/** It may be whole, but it is not in the form that VtpFile reads. */
-struct OtherForm : UnfitFile
-{};
+/** By section ("FieldData", "PointData", "CellData", "Points", "Verts", "Lines", "Strips", "Polys") and name; that of
+ *  the points is "Points", "". */
+using VtpArrays = std::map<std::pair<std::string, std::string>, VtpArray>;
 
-/** Throws UnfitFile when the condition does not hold. */
-inline void
-RequireFit(bool condition, const char * reason)
+struct VtpPiece
 {
-  if (!condition)
-  {
-    throw UnfitFile{ reason };
-  }
-}
+  std::map<std::string, std::string> counts; ///< such as NumberOfPoints
+  VtpArrays                          arrays;
 
-/** All bytes of a file. \throws UnfitFile */
-std::string
-WholeFile(const std::filesystem::path & path);
+  /** \throws UnfitFile for what is no number from 0 on */
+  std::uint64_t
+  Count(const std::string & name) const;
+};
 
-/** Arrays by section ("FieldData", "PointData", "CellData", "Points", "Verts", "Lines", "Polys") and name. Every
- *  function throws UnfitFile when what it is asked for is missing or has another type or size. */
+/** Every function throws UnfitFile when the file is damaged. */
 class VtpFile
 {
 public:
-  explicit VtpFile(const std::filesystem::path & path);
-
-  /** An attribute of the piece, such as NumberOfPoints. */
-  std::uint64_t
-  PieceCount(const std::string & attribute) const;
-
-  bool
-  Has(const std::string & section, const std::string & name) const
+  enum class Content
   {
-    return m_Arrays.contains({ section, name });
-  }
+    Mesh, ///< points, polygons and strips
+    All
+  };
 
-  /** All values of an array of Float64 (double) or Int64 (std::int64_t), tuple after tuple. */
+  /** With Content::All a file in WriteVtp's form is checked at once: its header must be as VTK has it, and every array,
+   *  also one that nobody here asks for, as long as the file's counts say. */
+  VtpFile(const std::filesystem::path & path, Content content);
+
+  std::vector<VtpPiece> pieces;
+  VtpArrays             fields;
+
+  /** Whether it has the form in which WriteVtp writes: appended data, raw and little endian, with heads of 64 bits, in
+   *  zlib's streams, or as they are, as former versions wrote them. */
+  bool
+  IsOurs() const;
+
+  /** How many bytes the appended data can stand for. */
+  std::uint64_t
+  MostAppended() const;
+
+  /** All numbers of an array, as double or std::int64_t; `finite`: others are refused. Memory is in proportion to what
+   *  the file holds, whatever its counts say. */
   template <typename Value>
   std::vector<Value>
-  Read(const std::string & section, const std::string & name, int components = 1);
+  Read(const VtpArray & array, bool finite = true);
 
-  /** All values of an array of Int32 or Int64. */
-  std::vector<std::int64_t>
-  ReadIndices(const std::string & section, const std::string & name);
-
-  /** The one string of a string array. */
+  /** The strings of a string array, each with its 0. */
   std::string
-  ReadText(const std::string & section, const std::string & name);
+  ReadTexts(const VtpArray & array);
 
 private:
-  struct Array
-  {
-    std::string   type;
-    std::uint64_t components;
-    std::uint64_t tuples; ///< as said of a field array
-    std::uint64_t offset; ///< from the beginning of the appended data
-  };
+  class Header;
+  class Source;
 
-  const Array &
-  Find(const std::string & section, const std::string & name) const;
-  void
-  ParseHeader(const std::string & xml);
-  void
-  AddArray(const std::string & section, std::map<std::string, std::string> & attributes);
-  void
-  CheckArrays();
-  /** Bytes from there on, of the appended data. */
-  void
-  ReadAt(std::uint64_t offset, char * to, std::uint64_t bytes);
-  /** Goes to the values of an array; returns their bytes, unpacked. */
-  std::uint64_t
-  OpenBlock(const Array & array);
-  /** All of the array that was opened last. */
-  void
-  ReadOpened(char * to);
-  std::string
-  ReadOpenedText(std::uint64_t bytes);
-  template <typename Value>
-  std::vector<Value>
-  ReadBlock(const Array & array);
+  /** An array's bytes: blocks one after another, from where `source` stands. */
+  struct Blocks;
 
-  std::ifstream                                        m_File;
-  std::uint64_t                                        m_DataBegin = 0;
-  std::uint64_t                                        m_DataEnd = 0;
-  std::map<std::string, std::string>                   m_Piece;
-  std::map<std::pair<std::string, std::string>, Array> m_Arrays;
+  Blocks
+  Open(const VtpArray & array);
+  void
+  Unpack(Blocks & blocks, char * to);
+  void
+  CheckOurs();
 
-  struct Stretch
-  {
-    std::uint64_t packed;
-    std::uint64_t bytes;
-  };
-
-  bool                 m_IsPacked = false;
-  std::uint64_t        m_Opened = 0; ///< where the first stretch of the array begins
-  std::vector<Stretch> m_Stretches;
+  std::ifstream m_File;
+  bool          m_IsBigEndian = false;
+  NumberType    m_Head{ 'u', 4 };
+  std::string   m_Compressor; ///< VTK's name of its class; empty for none
+  bool          m_IsAppendedRaw = false;
+  bool          m_IsOrderly = true; ///< no tag and no text where VTK has none
+  std::uint64_t m_DataBegin = 0;    ///< behind the underscore; 0 where nothing is appended
+  std::uint64_t m_DataEnd = 0;
 };
 
 } // namespace voxelcore

@@ -1,7 +1,6 @@
 // Meshes in VTK's XML.
 
-#include "XmlPolyData.h"
-#include "XmlUnpacking.h"
+#include "VtpFile.h"
 
 namespace voxelcore
 {
@@ -12,22 +11,17 @@ namespace
 class PieceReader
 {
 public:
-  PieceReader(const XmlEncoding & encoding, MeshFile & file)
-    : m_Encoding(encoding)
+  PieceReader(VtpFile & vtp, MeshFile & file)
+    : m_Vtp(vtp)
     , m_File(file)
-    , m_Left(encoding.appended.size())
-  {
-    if (m_Left > 0 && !encoding.compressor.empty())
-    {
-      m_Left *= MostGain(encoding.compressor);
-    }
-  }
+    , m_Left(vtp.MostAppended())
+  {}
 
   void
-  Add(const XmlPiece & piece)
+  Add(const VtpPiece & piece)
   {
     const std::size_t   first = m_File.mesh.points.size();
-    const std::uint64_t points = XmlNumber(piece.counts, "NumberOfPoints", 0);
+    const std::uint64_t points = piece.Count("NumberOfPoints");
     if (points > 0)
     {
       const auto numbers = Read<double>(piece, "Points", "");
@@ -36,7 +30,7 @@ public:
     }
     for (const std::string section : { "Polys", "Strips" })
     {
-      const std::uint64_t cells = XmlNumber(piece.counts, "NumberOf" + section, 0);
+      const std::uint64_t cells = piece.Count("NumberOf" + section);
       if (cells > 0)
       {
         const auto ends = Read<std::int64_t>(piece, section, "offsets");
@@ -49,15 +43,15 @@ public:
 private:
   template <typename Value>
   std::vector<Value>
-  Read(const XmlPiece & piece, const std::string & section, const std::string & name)
+  Read(const VtpPiece & piece, const std::string & section, const std::string & name)
   {
     const auto found = piece.arrays.find({ section, name });
     if (found == piece.arrays.end())
     {
       throw UnfitFile{ "an array of its " + section + " is missing" };
     }
-    const XmlArray & array = found->second;
-    auto             numbers = ReadXmlArray<Value>(array, m_Encoding);
+    const VtpArray & array = found->second;
+    auto             numbers = m_Vtp.Read<Value>(array);
     if (array.format == "appended")
     {
       // Thousands of pieces may name the same bytes.
@@ -68,21 +62,21 @@ private:
     return numbers;
   }
 
-  const XmlEncoding & m_Encoding;
-  MeshFile &          m_File;
-  std::uint64_t       m_Left; ///< bytes that the appended data may still stand for
+  VtpFile &     m_Vtp;
+  MeshFile &    m_File;
+  std::uint64_t m_Left; ///< bytes that the appended data may still stand for
 };
 
 } // namespace
 
 MeshFile
-ParseVtp(std::string_view bytes)
+ReadVtpMesh(const std::filesystem::path & path)
 {
-  const XmlPolyData data = ParseXmlPolyData(bytes, false);
-  MeshFile          file;
+  VtpFile  vtp(path, VtpFile::Content::Mesh);
+  MeshFile file;
   file.format = "VTP";
-  PieceReader reader(data.encoding, file);
-  for (const XmlPiece & piece : data.pieces)
+  PieceReader reader(vtp, file);
+  for (const VtpPiece & piece : vtp.pieces)
   {
     reader.Add(piece);
   }

@@ -2,12 +2,11 @@
 
 #include "VtpPacking.h"
 #include "VtkMessages.h"
-#include "VtpFile.h"
+#include "UnfitFile.h"
 
 #include <vtkLZ4DataCompressor.h>
 #include <vtkLZMADataCompressor.h>
 #include <vtkSmartPointer.h>
-#include <vtkZLibDataCompressor.h>
 
 namespace voxelcore
 {
@@ -25,7 +24,7 @@ MakeCompressor(const std::string & name)
 {
   if (name == kCompressor)
   {
-    return { vtkSmartPointer<vtkZLibDataCompressor>::New(), kMostInflated };
+    return { nullptr, kMostInflated }; // ours
   }
   if (name == "vtkLZ4DataCompressor")
   {
@@ -47,14 +46,16 @@ MostGain(const std::string & compressor)
 }
 
 bool
-Unpack(const std::string &   compressor,
-       const unsigned char * from,
-       std::uint64_t         packed,
-       unsigned char *       to,
-       std::uint64_t         size)
+UnpackBlock(const std::string & compressor, std::string_view packed, char * to, std::uint64_t size)
 {
+  if (compressor == kCompressor)
+  {
+    return Inflate(packed, to, size);
+  }
   const VtkMessages messages; // what is wrong is said by us
-  return MakeCompressor(compressor).decoder->Uncompress(from, packed, to, size) == size;
+  const auto *      from = reinterpret_cast<const unsigned char *>(packed.data());
+  return MakeCompressor(compressor)
+           .decoder->Uncompress(from, packed.size(), reinterpret_cast<unsigned char *>(to), size) == size;
 }
 
 } // namespace voxelcore

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace voxelcore
 {
@@ -11,12 +12,8 @@ namespace voxelcore
 std::uint64_t
 MostGain(const std::string & compressor);
 
-/** Whether `packed` bytes become exactly `size` bytes at `to`. \throws UnfitFile as MostGain */
+/** Whether `packed` becomes exactly `size` bytes at `to`. \throws UnfitFile as MostGain */
 bool
-Unpack(const std::string &   compressor,
-       const unsigned char * from,
-       std::uint64_t         packed,
-       unsigned char *       to,
-       std::uint64_t         size);
+UnpackBlock(const std::string & compressor, std::string_view packed, char * to, std::uint64_t size);
 
 } // namespace voxelcore

@@ -2,17 +2,19 @@
 // own reader allocates what the header says, and comes whole; here every count is held against what the file has.
 
 #include "PieceStream.h"
+#include "voxelcore/Base/Base64.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Base/XmlWalk.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 
-#include <expat.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,7 +24,6 @@ namespace voxelcore
 namespace
 {
 
-using Attributes = std::map<std::string, std::string>;
 using Bytes = std::vector<std::byte>;
 
 [[noreturn]] void
@@ -33,195 +34,113 @@ RefuseVti(const std::filesystem::path & path, const std::string & what)
 
 struct VtiArray
 {
-  Attributes  attributes;
-  bool        ofCells = false;
-  std::string text; ///< between its tags
+  XmlAttributes attributes;
+  bool          ofCells = false;
+  std::string   text; ///< between its tags
 };
 
 /** What stands before the appended data. */
 struct VtiHeader
 {
-  Attributes            file;
-  Attributes            image;
-  Attributes            piece;
+  XmlAttributes         file;
+  XmlAttributes         image;
+  XmlAttributes         piece;
   std::size_t           pieces = 0;
-  Attributes            scalars[2]; ///< of point data and cell data: the attributes of their tags
+  XmlAttributes         scalars[2]; ///< of point data and cell data: the attributes of their tags
   std::vector<VtiArray> arrays;
-  bool                  isAppendedRaw = false;
+  std::string           appendedEncoding;
   std::uint64_t         appendedAt = 0; ///< behind the underscore; 0: there are none
 };
 
-std::string
-AttributeOf(const Attributes & attributes, const char * name, const char * otherwise = "")
-{
-  const auto found = attributes.find(name);
-  return found == attributes.end() ? otherwise : found->second;
-}
-
-/** Walks through the tags, as expat calls. No exception may pass through expat: what is wrong is kept. */
-class VtiWalk
+/** Reads the header out of the tags. */
+class VtiWalk : private XmlWalk
 {
 public:
   explicit VtiWalk(const std::filesystem::path & path)
-    : m_Path(path)
-    , m_Parser(XML_ParserCreate(nullptr), &XML_ParserFree)
   {
-    XML_SetUserData(m_Parser.get(), this);
-    XML_SetElementHandler(m_Parser.get(), &VtiWalk::OnBegin, &VtiWalk::OnEnd);
-    XML_SetCharacterDataHandler(m_Parser.get(), &VtiWalk::OnText);
-    XML_SetStartDoctypeDeclHandler(m_Parser.get(), &VtiWalk::OnDoctype);
     const auto        stream = OpenBytes(path, 0, Packing::Plain);
-    std::vector<char> part(std::size_t{ 1 } << 20);
-    for (bool more = true; more && m_Appended == 0 && m_Trouble.empty();)
+    const std::string trouble =
+      Walk([&](char * to, std::size_t most) { return stream->ReadSome(reinterpret_cast<std::byte *>(to), most); });
+    if (!trouble.empty())
     {
-      const std::size_t got = stream->ReadSome(reinterpret_cast<std::byte *>(part.data()), part.size());
-      more = got > 0;
-      const bool good = XML_Parse(m_Parser.get(), part.data(), static_cast<int>(got), more ? 0 : 1) == XML_STATUS_OK;
-      if (!good && m_Appended == 0 && m_Trouble.empty())
-      {
-        m_Trouble = Text("line ",
-                         XML_GetCurrentLineNumber(m_Parser.get()),
-                         ": ",
-                         XML_ErrorString(XML_GetErrorCode(m_Parser.get())));
-      }
+      RefuseVti(path, trouble);
     }
-    if (!m_Trouble.empty())
+    if (EndedAt() > 0)
     {
-      RefuseVti(path, m_Trouble);
-    }
-    if (m_Appended > 0)
-    {
-      FindUnderscore();
+      FindUnderscore(path);
     }
   }
 
   VtiHeader header;
 
 private:
-  static void
-  OnBegin(void * self, const char * name, const char ** attributes)
-  {
-    auto & walk = *static_cast<VtiWalk *>(self);
-    walk.Guarded([&] {
-      Attributes all;
-      for (; *attributes != nullptr; attributes += 2)
-      {
-        all.emplace(attributes[0], attributes[1]);
-      }
-      walk.Begin(name, std::move(all));
-    });
-  }
-  static void
-  OnEnd(void * self, const char *)
-  {
-    auto & walk = *static_cast<VtiWalk *>(self);
-    walk.m_Tags.pop_back();
-    walk.m_IsInArray = false;
-  }
-  static void
-  OnText(void * self, const char * text, int length)
-  {
-    auto & walk = *static_cast<VtiWalk *>(self);
-    if (walk.m_IsInArray && walk.m_Tags.back() == "DataArray")
-    {
-      walk.Guarded([&] { walk.header.arrays.back().text.append(text, static_cast<std::size_t>(length)); });
-    }
-  }
-  static void
-  OnDoctype(void * self, const char *, const char *, const char *, int)
-  {
-    static_cast<VtiWalk *>(self)->Stop("it declares a document type, which no VTK file does");
-  }
-
-  template <typename Work>
   void
-  Guarded(const Work & work)
+  Begin(const std::string & name, const XmlAttributes & attributes, const std::string & within) override
   {
-    try
-    {
-      work();
-    }
-    catch (const std::bad_alloc &)
-    {
-      Stop("it is larger than the memory");
-    }
-  }
-
-  void
-  Stop(const std::string & trouble)
-  {
-    m_Trouble = m_Trouble.empty() ? trouble : m_Trouble;
-    XML_StopParser(m_Parser.get(), XML_FALSE);
-  }
-
-  void
-  Begin(const std::string & name, Attributes attributes)
-  {
-    const std::string within = m_Tags.empty() ? "" : m_Tags.back();
-    m_Tags.push_back(name);
     m_IsInArray = false;
-    if (m_Tags.size() > 64)
+    if (name == "VTKFile")
     {
-      Stop("its tags are nested too deeply");
-    }
-    else if (name == "VTKFile")
-    {
-      header.file = std::move(attributes);
+      header.file = attributes;
     }
     else if (name == "ImageData")
     {
-      header.image = std::move(attributes);
+      header.image = attributes;
     }
     else if (name == "Piece")
     {
       ++header.pieces;
-      header.piece = std::move(attributes);
+      header.piece = attributes;
     }
     else if (name == "PointData" || name == "CellData")
     {
-      header.scalars[name == "CellData" ? 1 : 0] = std::move(attributes);
+      header.scalars[name == "CellData" ? 1 : 0] = attributes;
     }
     else if (name == "DataArray" && (within == "PointData" || within == "CellData"))
     {
       m_IsInArray = true;
-      header.arrays.push_back({ std::move(attributes), within == "CellData", "" });
+      header.arrays.push_back({ attributes, within == "CellData", "" });
     }
     else if (name == "AppendedData")
     {
-      const std::string encoding = AttributeOf(attributes, "encoding");
-      if (encoding != "raw" && encoding != "base64")
-      {
-        Stop("its appended data are neither raw nor base64");
-        return;
-      }
-      header.isAppendedRaw = encoding == "raw";
-      // What follows may be no XML.
-      m_Appended = static_cast<std::uint64_t>(XML_GetCurrentByteIndex(m_Parser.get())) +
-                   static_cast<std::uint64_t>(XML_GetCurrentByteCount(m_Parser.get()));
-      XML_StopParser(m_Parser.get(), XML_FALSE);
+      header.appendedEncoding = AttributeOf(attributes, "encoding");
+      EndHere();
     }
   }
 
   void
-  FindUnderscore()
+  End(const std::string &, const std::string &) override
   {
+    m_IsInArray = false;
+  }
+
+  void
+  Text(std::string_view text, const std::string & tag) override
+  {
+    if (m_IsInArray && tag == "DataArray")
+    {
+      header.arrays.back().text.append(text);
+    }
+  }
+
+  void
+  FindUnderscore(const std::filesystem::path & path)
+  {
+    if (header.appendedEncoding != "raw" && header.appendedEncoding != "base64")
+    {
+      RefuseVti(path, "its appended data are neither raw nor base64");
+    }
     std::string begin(256, ' ');
-    begin.resize(OpenBytes(m_Path, m_Appended, Packing::Plain)
-                   ->ReadSome(reinterpret_cast<std::byte *>(begin.data()), begin.size()));
+    begin.resize(
+      OpenBytes(path, EndedAt(), Packing::Plain)->ReadSome(reinterpret_cast<std::byte *>(begin.data()), begin.size()));
     const std::size_t mark = begin.find_first_not_of(" \r\n\t");
     if (mark == std::string::npos || begin[mark] != '_')
     {
-      RefuseVti(m_Path, "its appended data do not begin with '_'");
+      RefuseVti(path, "its appended data do not begin with '_'");
     }
-    header.appendedAt = m_Appended + mark + 1;
+    header.appendedAt = EndedAt() + mark + 1;
   }
 
-  std::filesystem::path                                        m_Path;
-  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> m_Parser;
-  std::vector<std::string>                                     m_Tags;
-  bool                                                         m_IsInArray = false;
-  std::string                                                  m_Trouble;
-  std::uint64_t                                                m_Appended = 0;
+  bool m_IsInArray = false;
 };
 
 /** Bytes in memory. */
@@ -251,6 +170,18 @@ private:
   Bytes       m_Bytes;
   std::size_t m_At = 0;
 };
+
+/** A number of `width` bytes, as they stand before arrays. */
+std::uint64_t
+HeadNumber(std::span<const std::byte> bytes, std::size_t width, bool isBig)
+{
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < width; ++i)
+  {
+    number = number << 8U | std::to_integer<std::uint64_t>(bytes[isBig ? i : width - 1 - i]);
+  }
+  return number;
+}
 
 /** Blocks packed by zlib, of equal size but the last; their sizes stand before them. */
 class BlockStream : public PieceStream
@@ -299,12 +230,7 @@ private:
   {
     std::array<std::byte, 8> bytes{};
     m_Packed->Read(bytes.data(), m_Width);
-    std::uint64_t number = 0;
-    for (std::size_t i = 0; i < m_Width; ++i)
-    {
-      number = number << 8U | std::to_integer<std::uint64_t>(bytes[m_IsBig ? i : m_Width - 1 - i]);
-    }
-    return number;
+    return HeadNumber(bytes, m_Width, m_IsBig);
   }
 
   void
@@ -342,45 +268,17 @@ private:
   Bytes                       m_Block;
 };
 
-/** The first bytes that a run of base64 stands for, at most `most`; `text` then begins with the next run. */
+/** The next bytes of a run of base64, `count` or as many as there are. */
 Bytes
-FromBase64(const std::filesystem::path & path, std::string_view & text, std::uint64_t most)
+NextOfBase64(const std::filesystem::path & path, std::string_view & text, std::optional<std::uint64_t> count)
 {
-  Bytes bytes;
-  bool  isAtEnd = false;
-  while (bytes.size() < most && !isAtEnd)
-  {
-    text.remove_prefix(std::min(text.find_first_not_of(" \r\n\t"), text.size()));
-    if (text.size() < 4)
-    {
-      break;
-    }
-    unsigned    bits = 0;
-    std::size_t padded = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-    {
-      static constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-      const std::size_t                 six = letters.find(text[i]);
-      padded += text[i] == '=' ? 1 : 0;
-      isAtEnd = isAtEnd || (six == std::string_view::npos && !(text[i] == '=' && i > 1));
-      bits = bits << 6U | (six == std::string_view::npos ? 0U : static_cast<unsigned>(six));
-    }
-    if (isAtEnd)
-    {
-      break;
-    }
-    text.remove_prefix(4);
-    for (std::size_t i = 0; i < 3 - std::min<std::size_t>(padded, 2); ++i)
-    {
-      bytes.push_back(static_cast<std::byte>(bits >> (16 - 8 * i) & 255U));
-    }
-    isAtEnd = padded > 0; // of this run
-  }
-  if (bytes.size() < most && most != UINT64_MAX)
+  const std::string decoded = FromBase64(text, count.value_or(std::numeric_limits<std::uint64_t>::max()));
+  if (count && decoded.size() < *count)
   {
     RefuseVti(path, "its base64 ends too early");
   }
-  return bytes;
+  const auto * const from = reinterpret_cast<const std::byte *>(decoded.data());
+  return { from, from + decoded.size() };
 }
 
 PixelType
@@ -402,7 +300,10 @@ VtkTypeOf(const std::filesystem::path & path, const std::string & name)
 
 template <std::size_t Count>
 std::array<double, Count>
-VtiNumbers(const std::filesystem::path & path, const Attributes & attributes, const char * name, const char * otherwise)
+VtiNumbers(const std::filesystem::path & path,
+           const XmlAttributes &         attributes,
+           const char *                  name,
+           const char *                  otherwise)
 {
   std::array<double, Count> numbers{};
   const std::string         text = AttributeOf(attributes, name, otherwise);
@@ -513,7 +414,7 @@ OpenArray(const std::filesystem::path & path, const VtiHeader & header, const Vt
   {
     RefuseVti(path, "an array lies beyond its end");
   }
-  if (format == "appended" && header.isAppendedRaw)
+  if (format == "appended" && header.appendedEncoding == "raw")
   {
     stored = OpenBytes(path, from, Packing::Plain);
   }
@@ -531,24 +432,19 @@ OpenArray(const std::filesystem::path & path, const VtiHeader & header, const Vt
     Bytes bytes;
     if (compressor.empty())
     {
-      bytes = FromBase64(path, text, width + expected);
+      bytes = NextOfBase64(path, text, width + expected);
     }
     else
     {
-      std::string_view again = text;
-      const Bytes      first = FromBase64(path, again, 3 * width);
-      std::uint64_t    blocks = 0;
-      for (std::size_t i = 0; i < width; ++i)
-      {
-        blocks = blocks << 8U | std::to_integer<std::uint64_t>(first[isBig ? i : width - 1 - i]);
-      }
+      std::string_view    again = text;
+      const Bytes         first = NextOfBase64(path, again, 3 * width);
+      const std::uint64_t blocks = HeadNumber(first, width, isBig);
       if (blocks > FileSize(path))
       {
         RefuseVti(path, "its packed blocks have sizes that cannot be");
       }
-      bytes = FromBase64(path, text, (3 + blocks) * width);
-      bytes.resize(static_cast<std::size_t>((3 + blocks) * width));
-      const Bytes packed = FromBase64(path, text, UINT64_MAX);
+      bytes = NextOfBase64(path, text, (3 + blocks) * width);
+      const Bytes packed = NextOfBase64(path, text, std::nullopt);
       bytes.insert(bytes.end(), packed.begin(), packed.end());
     }
     stored = std::make_unique<VtiMemoryStream>(path, std::move(bytes));
@@ -559,11 +455,7 @@ OpenArray(const std::filesystem::path & path, const VtiHeader & header, const Vt
   }
   std::array<std::byte, 8> bytes{};
   stored->Read(bytes.data(), width);
-  std::uint64_t size = 0;
-  for (std::size_t i = 0; i < width; ++i)
-  {
-    size = size << 8U | std::to_integer<std::uint64_t>(bytes[isBig ? i : width - 1 - i]);
-  }
+  const std::uint64_t size = HeadNumber(bytes, width, isBig);
   // 32 bits hold the size of arrays above 4 GB no longer.
   if (size != (width == 4 ? expected & 0xFFFFFFFFU : expected))
   {

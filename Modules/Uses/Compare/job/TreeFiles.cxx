@@ -3,16 +3,16 @@
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
+#include "voxelcore/Base/XmlWalk.h"
 #include "voxelcore/Lattice/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
-#include <expat.h>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
+#include <optional>
 #include <sstream>
 
 namespace voxelcore
@@ -171,28 +171,23 @@ struct Root
   std::size_t          parent = std::numeric_limits<std::size_t>::max();
 };
 
-/** Walks through the tags, as expat calls. No exception may pass through expat: what is wrong is kept. */
-class RsmlWalk
+/** Reads the roots out of the tags. */
+class RsmlWalk : private XmlWalk
 {
 public:
-  explicit RsmlWalk(const std::string & text)
-    : m_Parser(XML_ParserCreate(nullptr), &XML_ParserFree)
+  explicit RsmlWalk(std::string_view text)
   {
-    XML_SetUserData(m_Parser.get(), this);
-    XML_SetElementHandler(m_Parser.get(), &RsmlWalk::OnBegin, &RsmlWalk::OnEnd);
-    XML_SetCharacterDataHandler(m_Parser.get(), &RsmlWalk::OnText);
-    XML_SetStartDoctypeDeclHandler(m_Parser.get(), &RsmlWalk::OnDoctype);
-    constexpr std::size_t step = 1 << 20;
-    for (std::size_t at = 0; at <= text.size() && wrong.empty(); at += step)
+    try
     {
-      const std::size_t size = std::min(step, text.size() - at);
-      const bool        isLast = at + step > text.size();
-      if (XML_Parse(m_Parser.get(), text.data() + at, static_cast<int>(size), isLast ? 1 : 0) != XML_STATUS_OK &&
-          wrong.empty())
-      {
-        wrong = "line " + std::to_string(XML_GetCurrentLineNumber(m_Parser.get())) + ": " +
-                XML_ErrorString(XML_GetErrorCode(m_Parser.get()));
-      }
+      wrong = Walk([&](char * to, std::size_t most) {
+        const std::size_t size = text.copy(to, most);
+        text.remove_prefix(size);
+        return size;
+      });
+    }
+    catch (const Refused & refused)
+    {
+      wrong = refused.what;
     }
   }
 
@@ -202,49 +197,14 @@ public:
   std::string       wrong;
 
 private:
-  static void
-  OnDoctype(void * self, const XML_Char *, const XML_Char *, const XML_Char *, int)
+  struct Refused
   {
-    static_cast<RsmlWalk *>(self)->Refuse("it has a document type");
-  }
-  static void
-  OnBegin(void * self, const XML_Char * name, const XML_Char ** attributes)
-  {
-    static_cast<RsmlWalk *>(self)->Begin(name, attributes);
-  }
-  static void
-  OnEnd(void * self, const XML_Char *)
-  {
-    static_cast<RsmlWalk *>(self)->End();
-  }
-  static void
-  OnText(void * self, const XML_Char * text, int length)
-  {
-    static_cast<RsmlWalk *>(self)->m_Text.append(text, static_cast<std::size_t>(length));
-  }
+    std::string what;
+  };
 
   void
-  Refuse(const std::string & what)
+  Begin(const std::string & name, const XmlAttributes & attributes, const std::string & above) override
   {
-    wrong = wrong.empty() ? what : wrong;
-    XML_StopParser(m_Parser.get(), XML_FALSE);
-  }
-
-  void
-  Begin(const std::string & name, const XML_Char ** attributes)
-  {
-    const auto value = [&](const char * wanted) -> std::optional<std::string> {
-      for (const XML_Char ** at = attributes; *at != nullptr; at += 2)
-      {
-        if (std::string(at[0]) == wanted)
-        {
-          return std::string(at[1]);
-        }
-      }
-      return std::nullopt;
-    };
-    const std::string above = m_Path.empty() ? std::string() : m_Path.back();
-    m_Path.push_back(name);
     m_Text.clear();
     if (name == "root")
     {
@@ -257,33 +217,29 @@ private:
     }
     else if (name == "function")
     {
-      m_IsDiameter = value("name") == "diameter";
+      m_IsDiameter = AttributeOf(attributes, "name") == "diameter";
     }
     else if (name == "point" && above == "polyline" && !m_Open.empty())
     {
       Vector3 place{};
       for (std::size_t k = 0; k < 3; ++k)
       {
-        const auto text = value(k == 0 ? "x" : k == 1 ? "y" : "z");
-        const auto number = text ? ParseReal(*text) : k == 2 ? std::optional(0.0) : std::nullopt;
+        const auto number = ParseReal(AttributeOf(attributes, k == 0 ? "x" : k == 1 ? "y" : "z", k == 2 ? "0" : ""));
         if (!number || !std::isfinite(*number))
         {
-          Refuse("a point of a polyline has no x, y or z that is a number");
-          return;
+          throw Refused{ "a point of a polyline has no x, y or z that is a number" };
         }
         place[k] = *number;
       }
       roots[m_Open.back()].points.push_back(place);
     }
-    m_Value = value("value");
+    const auto found = attributes.find("value");
+    m_Value = found == attributes.end() ? std::nullopt : std::optional(found->second);
   }
 
   void
-  End()
+  End(const std::string & name, const std::string & above) override
   {
-    const std::string name = m_Path.back();
-    m_Path.pop_back();
-    const std::string above = m_Path.empty() ? std::string() : m_Path.back();
     if (name == "root")
     {
       m_Open.pop_back();
@@ -293,8 +249,7 @@ private:
       const auto number = ParseReal(m_Value.value_or(m_Text));
       if (!number || !(*number >= 0) || !std::isfinite(*number))
       {
-        Refuse("a diameter is no number from 0 on");
-        return;
+        throw Refused{ "a diameter is no number from 0 on" };
       }
       roots[m_Open.back()].diameters.push_back(*number);
     }
@@ -304,12 +259,16 @@ private:
     }
   }
 
-  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> m_Parser;
-  std::vector<std::string>                                     m_Path;
-  std::vector<std::size_t>                                     m_Open; ///< roots within each other
-  std::string                                                  m_Text;
-  std::optional<std::string>                                   m_Value;
-  bool                                                         m_IsDiameter = false;
+  void
+  Text(std::string_view text, const std::string &) override
+  {
+    m_Text.append(text);
+  }
+
+  std::vector<std::size_t>   m_Open; ///< roots within each other
+  std::string                m_Text;
+  std::optional<std::string> m_Value;
+  bool                       m_IsDiameter = false;
 };
 
 SkeletonModel
