@@ -1,6 +1,7 @@
 #include "voxelcore/Compare/CompareTables.h"
 
 #include "CompareGraphs.h"
+#include "TablesJson.h"
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
 #include "voxelcore/Report/CsvText.h"
@@ -41,7 +42,7 @@ TEST(CompareTables, ANumberIsTheSameInTableAndReport)
 {
   const auto            tables = TablesOf({ Masks() }, Geometry());
   const TemporaryFolder folder;
-  const auto            json = nlohmann::json::parse(CompareTablesJson(tables));
+  const auto            json = TablesAsJson(tables);
   const auto            meanings = nlohmann::json::parse(CompareColumnsJson(tables));
   for (const CompareTable & table : tables)
   {
@@ -97,7 +98,7 @@ TEST(CompareTables, TreesAreSummedUp)
   trees.found = CompareTrees(a, b, {});
   trees.levelsA = MeasureBranches(a).levels;
   trees.levelsB = MeasureBranches(b).levels;
-  const auto   json = nlohmann::json::parse(CompareTablesJson(TablesOf({ trees }, SpatialUnit::Millimetres)));
+  const auto   json = TablesAsJson(TablesOf({ trees }, SpatialUnit::Millimetres));
   const auto & row = json.at("labels").at(0);
   EXPECT_EQ(row.at("length_difference"), 2);
   EXPECT_NEAR(row.at("tree_length_detected").get<double>(), 18 / 20.0, 1e-8); // a radius beyond the end

@@ -1,9 +1,9 @@
 #include "voxelcore/Jobs/JobTools.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Lattice/GridOffset.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
 
-#include <cmath>
 #include <set>
 
 namespace voxelcore
@@ -99,23 +99,7 @@ RequireSamePlace(const ImageGeometry &         other,
                  const std::string &           option,
                  const std::filesystem::path & path)
 {
-  constexpr double close = 1e-3; // voxels
-  bool             same = other.size == labels.size && other.unit == labels.unit;
-  // Opposite corners and those between them.
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    Vector3 place{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(labels.size[axis]) : 0.0;
-    }
-    const Vector3 there = PhysicalToLattice(other, LatticeToPhysical(labels, place));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      same = same && std::abs(there[axis] - place[axis]) < close;
-    }
-  }
-  if (!same)
+  if (!HaveSameVoxels(other, labels, kSamePlace))
   {
     throw InputError(path.string() + ": " + option +
                      " must have the voxels of the segmentation: the same size, spacing, origin " +

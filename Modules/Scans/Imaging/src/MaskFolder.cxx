@@ -5,9 +5,9 @@
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/FormatOpeners.h"
 #include "voxelcore/Labels/ScaledValue.h"
+#include "voxelcore/Lattice/GridOffset.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -35,29 +35,6 @@ StructureName(const fs::path & file)
     }
   }
   return file.stem().string();
-}
-
-/** Whether two scans have their voxels at the same places, within a hundredth of a voxel. */
-bool
-HaveOneGrid(const ImageGeometry & a, const ImageGeometry & b)
-{
-  if (a.size != b.size || a.unit != b.unit)
-  {
-    return false;
-  }
-  const Vector3 last{ static_cast<double>(a.size[0]), static_cast<double>(a.size[1]), static_cast<double>(a.size[2]) };
-  for (const Vector3 & corner : { Vector3{ 0, 0, 0 }, Vector3{ last[0], 0, 0 }, Vector3{ 0, last[1], 0 }, last })
-  {
-    const Vector3 there = PhysicalToLattice(a, LatticeToPhysical(b, corner));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      if (!(std::abs(there[axis] - corner[axis]) < 0.01))
-      {
-        return false;
-      }
-    }
-  }
-  return true;
 }
 
 /** The masks side by side: of each voxel a value from each, its number where it is in and 0 where not. */
@@ -202,7 +179,8 @@ OpenMaskFolder(const fs::path & folder, const std::vector<fs::path> & paths, con
     {
       RefuseInput(file, "several values a voxel in a folder of masks", "name this file by itself");
     }
-    if (!HaveOneGrid(masks.front().geometry, mask.geometry))
+    constexpr double close = 0.01; // voxels: NIfTI keeps places in single precision
+    if (!HaveSameVoxels(masks.front().geometry, mask.geometry, close))
     {
       RefuseInput(folder,
                   Text("'",

@@ -1,5 +1,7 @@
 #include "voxelcore/Compare/CompareJob.h"
 
+#include "TablesJson.h"
+
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
@@ -11,12 +13,12 @@
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Labels/CropRange.h"
+#include "voxelcore/Lattice/GridOffset.h"
 #include "voxelcore/Models/AppendedVtp.h"
 #include "voxelcore/Shape/BodyFrame.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <type_traits>
@@ -32,42 +34,20 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kSamePlace = 1e-3; ///< voxels, as of RequireSamePlace()
-
 /** How many voxels of A's grid B's first one lies from A's.
  *  \throws InputError unless voxels of both are at the same places, wherever both have any */
 std::array<std::int32_t, 3>
 OffsetOf(const CompareSide & a, const CompareSide & b)
 {
-  const ImageGeometry &       gridA = std::get<LabelMap>(a.content).geometry;
-  const ImageGeometry &       gridB = std::get<LabelMap>(b.content).geometry;
-  std::array<std::int32_t, 3> offset{};
-  bool                        isSame = gridA.unit == gridB.unit;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    Vector3 place{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      place[axis] = (corner >> axis & 1) != 0 ? static_cast<double>(gridB.size[axis]) : 0.0;
-    }
-    const Vector3 there = PhysicalToLattice(gridA, LatticeToPhysical(gridB, place));
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      const double by = there[axis] - place[axis];
-      isSame = isSame && std::abs(by) < 1e9;
-      if (isSame && corner == 0)
-      {
-        offset[axis] = static_cast<std::int32_t>(std::lround(by));
-      }
-      isSame = isSame && std::abs(by - offset[axis]) < kSamePlace;
-    }
-  }
-  if (!isSame)
+  const ImageGeometry & gridA = std::get<LabelMap>(a.content).geometry;
+  const ImageGeometry & gridB = std::get<LabelMap>(b.content).geometry;
+  const auto            offset = GridOffset(gridA, gridB, kSamePlace);
+  if (!offset || gridA.unit != gridB.unit)
   {
     throw InputError(b.name + ": does not have the grid of " + a.name +
                      " (spacing, directions, or places of voxels); resample one of them to the other's");
   }
-  return offset;
+  return *offset;
 }
 
 /** Puts B into A's grid, and takes of both what lies in the boxes of both. */
@@ -637,7 +617,7 @@ CompareJson(const CompareResult & result, const CompareOptions & options)
                 { "kind", result.kind },
                 { "unit", UnitName(result.unit) },
                 { "notes", result.notes } };
-  json.update(Json::parse(CompareTablesJson(result.tables)));
+  json.update(TablesAsJson(result.tables));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

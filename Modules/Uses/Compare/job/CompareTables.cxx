@@ -1,5 +1,7 @@
 #include "voxelcore/Compare/CompareTables.h"
 
+#include "TablesJson.h"
+
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Models/SkeletonModel.h"
@@ -442,8 +444,8 @@ CompareColumnsJson(const std::vector<CompareTable> & tables)
   return TablesJson(meanings);
 }
 
-std::string
-CompareTablesJson(const std::vector<CompareTable> & tables)
+nlohmann::ordered_json
+TablesAsJson(const std::vector<CompareTable> & tables)
 {
   Json json = Json::object();
   for (const CompareTable & table : tables)
@@ -471,7 +473,7 @@ CompareTablesJson(const std::vector<CompareTable> & tables)
     }
     json[table.name] = std::move(rows);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json;
 }
 
 std::string

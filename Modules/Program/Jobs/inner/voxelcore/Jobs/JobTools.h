@@ -47,8 +47,11 @@ RequireSameUnit(const std::filesystem::path & one,
                 const std::filesystem::path & other,
                 SpatialUnit                   otherUnit);
 
+/** Voxels; places of voxels that are so close are the same. */
+constexpr double kSamePlace = 1e-3;
+
 /** \throws InputError unless the volume at `path`, given by `option`, has the voxels of the segmentation: size, unit
- *  and places, to a thousandth of a voxel */
+ *  and places */
 void
 RequireSamePlace(const ImageGeometry &         other,
                  const ImageGeometry &         labels,

@@ -77,10 +77,6 @@ WriteCompareCsv(const std::filesystem::path & path, const CompareTable & table, 
 std::string
 CompareColumnsJson(const std::vector<CompareTable> & tables);
 
-/** An object with a list of objects for each table; null where nothing is. */
-std::string
-CompareTablesJson(const std::vector<CompareTable> & tables);
-
 /** The main numbers, a row a label, and what differs. */
 std::string
 CompareTablesText(const std::vector<CompareTable> & tables);
