@@ -2,6 +2,7 @@
 
 #include "Models/Models/ModelFixtures.h"
 #include "VoxelCoreTesting/UnpackedVtp.h"
+#include "voxelcore/Models/AppendedVtp.h"
 #include "voxelcore/Models/ModelPolyData.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <omp.h>
@@ -120,6 +122,49 @@ TEST(PlainFiles, HaveTheBytesOfVtksWritersForRandomModels)
   for (unsigned i = 0; i < 40; ++i)
   {
     ExpectVtksBytes(RandomModel(seed + i, 1 + static_cast<int>(i % 6), 1 + static_cast<int>(i % 3)), i % 2 == 0);
+  }
+}
+
+TEST(PlainFiles, OfPolyDataThatIsNoModelHaveTheBytesOfVtksWriterAfterItsReader)
+{
+  const auto seed = std::random_device()();
+  std::cout << "seed " << seed << "\n";
+  std::mt19937_64                        random(seed);
+  std::uniform_real_distribution<double> real(-9, 9);
+  const TemporaryFolder                  folder;
+  for (int turn = 0; turn < 20; ++turn)
+  {
+    VtpContent          content;
+    const auto          points = 1 + random() % 20;
+    std::vector<double> numbers;
+    for (std::uint64_t point = 0; point < points; ++point)
+    {
+      content.positions.insert(content.positions.end(), { real(random), real(random), real(random) });
+      numbers.push_back(point == 3 ? std::numeric_limits<double>::infinity() : real(random));
+    }
+    std::vector<std::int64_t> cells;
+    for (std::size_t dimension = 0; dimension < 3; ++dimension)
+    {
+      VtpCells & kind = content.cells[dimension];
+      for (std::uint64_t cell = random() % 4; cell > 0; --cell)
+      {
+        for (std::uint64_t corners = dimension + 1 + random() % 5; corners > 0; --corners)
+        {
+          kind.points.push_back(static_cast<std::int64_t>(random() % points));
+        }
+        kind.offsets.push_back(static_cast<std::int64_t>(kind.points.size()));
+        cells.push_back(static_cast<std::int64_t>(random()));
+      }
+    }
+    content.texts = { { "SPACE", "LPS" }, { "Units", "mm" } };
+    content.pointArrays = { { "Numbers", numbers } };
+    content.cellArrays = { { "Wholes", cells }, { "Reals", std::vector<double>(cells.size(), 1.0 / 3) } };
+    WriteVtp(folder / "ours.vtp", content);
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((folder / "ours.vtp").c_str());
+    reader->Update();
+    WriteByVtk(folder / "vtks.vtp", reader->GetOutput());
+    ExpectSame(UnpackedVtp(ReadAll(folder / "ours.vtp")), ReadAll(folder / "vtks.vtp"));
   }
 }
 

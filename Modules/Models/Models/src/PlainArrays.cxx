@@ -3,12 +3,13 @@
 #include "voxelcore/Base/Error.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace voxelcore
 {
 
 PlainArrays::Array &
-PlainArrays::Add(const char * section, const char * name, std::uint64_t tuples, int components)
+PlainArrays::Add(const char * section, const std::string & name, std::uint64_t tuples, int components)
 {
   Array & array = m_Arrays.emplace_back();
   array.section = section;
@@ -33,6 +34,20 @@ PlainArrays::Wholes(const char * section, const char * name, std::uint64_t tuple
   Array & array = Add(section, name, tuples, components);
   array.wholes.resize(array.Values());
   return array.wholes.data();
+}
+
+void
+PlainArrays::Take(const char * section, const std::string & name, std::vector<double> values, int components)
+{
+  Array & array = Add(section, name, values.size() / static_cast<std::size_t>(components), components);
+  array.isReal = true;
+  array.reals = std::move(values);
+}
+
+void
+PlainArrays::Take(const char * section, const std::string & name, std::vector<std::int64_t> values)
+{
+  Add(section, name, values.size(), 1).wholes = std::move(values);
 }
 
 void

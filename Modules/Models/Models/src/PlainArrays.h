@@ -48,6 +48,12 @@ public:
   void
   Text(const char * name, const std::string & value) override;
 
+  /** Values that are there, tuple after tuple. */
+  void
+  Take(const char * section, const std::string & name, std::vector<double> values, int components = 1);
+  void
+  Take(const char * section, const std::string & name, std::vector<std::int64_t> values);
+
   std::vector<const Array *>
   Of(std::string_view section) const;
   /** What the sink was asked for; cells have arrays of their own. */
@@ -73,7 +79,7 @@ protected:
 
 private:
   Array &
-  Add(const char * section, const char * name, std::uint64_t tuples, int components);
+  Add(const char * section, const std::string & name, std::uint64_t tuples, int components);
 
   std::deque<Array> m_Arrays; // whose addresses stay
 };

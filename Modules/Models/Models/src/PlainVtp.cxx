@@ -1,9 +1,11 @@
 #include "ModelFormats.h"
-#include "VtpPacking.h"
 #include "PlainArrays.h"
+#include "VtpPacking.h"
 #include "voxelcore/Base/OutputFile.h"
+#include "voxelcore/Models/AppendedVtp.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -148,13 +150,10 @@ private:
   std::vector<Block> m_Blocks;
 };
 
-} // namespace
-
+/** VTK's form, with appended data in zlib's streams. */
 void
-WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
+WriteArrays(const std::filesystem::path & path, const PlainArrays & arrays)
 {
-  PlainArrays arrays;
-  WriteParts(model, keepEdges, arrays);
   const Array noStrips{ "Strips", "connectivity", {}, {}, {}, {}, 0, 1, false, false, false };
   const Array noOffsets{ "Strips", "offsets", {}, {}, {}, {}, 0, 1, false, false, false };
 
@@ -201,6 +200,44 @@ WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool kee
   appended.Write(file);
   file.Write("\n  </AppendedData>\n</VTKFile>\n");
   file.Finish();
+}
+
+} // namespace
+
+void
+WriteVtp(const std::filesystem::path & path, const MedialModel & model, bool keepEdges)
+{
+  PlainArrays arrays;
+  WriteParts(model, keepEdges, arrays);
+  WriteArrays(path, arrays);
+}
+
+void
+WriteVtp(const std::filesystem::path & path, VtpContent content)
+{
+  PlainArrays arrays;
+  for (const auto & [name, text] : content.texts)
+  {
+    arrays.Text(name.c_str(), text);
+  }
+  const auto takeAll = [&](const char * section, std::vector<std::pair<std::string, VtpValues>> & list) {
+    for (auto & [name, values] : list)
+    {
+      std::visit([&, &called = name](auto & numbers) { arrays.Take(section, called, std::move(numbers)); }, values);
+    }
+  };
+  takeAll("PointData", content.pointArrays);
+  takeAll("CellData", content.cellArrays);
+  arrays.Take("Points", "Points", std::move(content.positions), 3);
+  constexpr std::array<const char *, 3> sections{ "Verts", "Lines", "Polys" };
+  for (std::size_t kind = 0; kind < sections.size(); ++kind)
+  {
+    VtpCells & cells = content.cells[kind];
+    cells.offsets.insert(cells.offsets.begin(), 0);
+    arrays.Take(sections[kind], "connectivity", std::move(cells.points));
+    arrays.Take(sections[kind], "offsets", std::move(cells.offsets));
+  }
+  WriteArrays(path, arrays);
 }
 
 } // namespace voxelcore

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace voxelcore
 {
@@ -284,7 +285,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   addCells("Strahler", &CellData::strahler);
   addCells("Length", &CellData::length);
   addCells("Tortuosity", &CellData::tortuosity);
-  WriteVtp(path, content);
+  WriteVtp(path, std::move(content));
 }
 
 SkeletonModel

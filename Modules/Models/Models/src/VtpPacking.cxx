@@ -6,7 +6,9 @@
 
 #include <atomic>
 #include <bit>
+#include <cstdint>
 #include <future>
+#include <vector>
 
 namespace voxelcore
 {

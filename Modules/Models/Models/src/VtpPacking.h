@@ -3,11 +3,8 @@
 
 #include "Deflate.h"
 
-#include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace voxelcore
 {
@@ -19,12 +16,5 @@ constexpr std::string_view kCompressor = "vtkZLibDataCompressor";
  *  of each stream; then the streams. Blocks are packed side by side; the bytes do not tell in how many threads. */
 std::string
 PackVtpArray(std::string_view bytes);
-
-template <typename Value>
-std::string
-PackVtpArray(std::span<const Value> values)
-{
-  return PackVtpArray(std::string_view(reinterpret_cast<const char *>(values.data()), values.size_bytes()));
-}
 
 } // namespace voxelcore

@@ -426,7 +426,7 @@ WriteFoundVtp(const fs::path & path, const CompareResult & result)
                          { "Label", std::move(labels) },
                          { "BranchId", std::move(branchIds) },
                          { "Share", std::move(shares) } };
-  WriteVtp(path, content);
+  WriteVtp(path, std::move(content));
 }
 
 /** The branches that were found, missed and invented, as labels of a page or scene. */

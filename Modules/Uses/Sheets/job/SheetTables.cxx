@@ -5,6 +5,7 @@
 #include "voxelcore/Sheets/SheetFiles.h"
 
 #include <array>
+#include <utility>
 
 namespace voxelcore
 {
@@ -178,7 +179,7 @@ WriteSheetsVtp(const std::filesystem::path & path, const SheetModel & model)
   addCells("JunctionId", &Names::junction);
   addCells("Label", &Names::label);
   addCells("Component", &Names::component);
-  WriteVtp(path, content);
+  WriteVtp(path, std::move(content));
 }
 
 void

@@ -5,6 +5,7 @@
 #include "voxelcore/Thickness/ThicknessFiles.h"
 
 #include <array>
+#include <utility>
 
 namespace voxelcore
 {
@@ -141,7 +142,7 @@ WriteThicknessVtp(const std::filesystem::path &         path,
   content.texts = { { "SPACE", "LPS" }, { "Units", UnitName(unit) }, { "Provenance", provenance } };
   content.pointArrays = { { "Thickness", std::move(thickness) } };
   content.cellArrays = { { "Label", std::move(labels) }, { "Component", std::move(components) } };
-  WriteVtp(path, content);
+  WriteVtp(path, std::move(content));
 }
 
 std::string

@@ -155,7 +155,7 @@ WriteCenterlineVtp(const std::filesystem::path & path, const std::vector<Centerl
   {
     content.cellArrays.emplace_back(names[k], std::move(numbers[k]));
   }
-  WriteVtp(path, content);
+  WriteVtp(path, std::move(content));
 }
 
 void

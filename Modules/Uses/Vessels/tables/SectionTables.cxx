@@ -185,7 +185,7 @@ WriteSectionVtp(const std::filesystem::path & path, const std::vector<SectionsOf
   {
     content.cellArrays.emplace_back(kCellNumbers[k].first, std::move(numbers[k]));
   }
-  WriteVtp(path, content);
+  WriteVtp(path, std::move(content));
 }
 
 const char *

@@ -30,6 +30,6 @@ struct VtpContent
 
 /** \throws OutputError */
 void
-WriteVtp(const std::filesystem::path & path, const VtpContent & content);
+WriteVtp(const std::filesystem::path & path, VtpContent content);
 
 } // namespace voxelcore
