@@ -3,11 +3,14 @@
 #include "voxelcore/Shape/GrowingPieces.h"
 #include "MendingWindow.h"
 #include "ShapeField.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/StagePlan.h"
 #include "voxelcore/Shape/TouchingPieces.h"
 
 #include <algorithm>
+#include <iterator>
+#include <tuple>
 #include <vector>
 
 namespace voxelcore
@@ -29,24 +32,32 @@ public:
   {
     // What is mended may let a neighbour be mended. Every change lowers a topology number, so this ends.
     // Each pass takes half of the progress left: how many there will be nobody knows, and the first is most work.
-    double done = 0;
-    for (bool changes = true; changes;)
+    double             done = 0;
+    std::vector<Voxel> voxels = NotSimple();
+    do
     {
-      changes = false;
       const double           next = 0.5 * (1 + done);
       const ProgressCallback pass = PartOfProgress(progress, done, next);
       done = next;
       ReportProgress(pass, "mending", 0);
-      const std::vector<Voxel> voxels = NotSimple();
+      m_Flipped.clear();
       for (std::size_t i = 0; i < voxels.size(); ++i)
       {
         if ((i & 0xFFFU) == 0)
         {
           ReportProgress(pass, "mending", static_cast<double>(i) / static_cast<double>(voxels.size()));
         }
-        changes = (m_Shape.Contains(voxels[i]) ? TakeOut(voxels[i]) : PutIn(voxels[i])) || changes;
+        if (m_Shape.Contains(voxels[i]))
+        {
+          TakeOut(voxels[i]);
+        }
+        else
+        {
+          PutIn(voxels[i]);
+        }
       }
-    }
+      voxels = NotSimpleNow(voxels);
+    } while (!m_Flipped.empty());
     // Two that meet at a corner alone take two voxels.
     JoinedPieces joined = JoinTouchingPieces(std::move(m_Shape).Release());
     m_Result.voxelsAdded += joined.VoxelsAdded();
@@ -92,7 +103,40 @@ private:
     return all;
   }
 
-  bool
+  /** The same after flips: whether a voxel is simple changes beside them alone. */
+  std::vector<Voxel>
+  NotSimpleNow(const std::vector<Voxel> & before) const
+  {
+    const auto inScanOrder = [](const Voxel & a, const Voxel & b) {
+      return std::tie(a[2], a[1], a[0]) < std::tie(b[2], b[1], b[0]);
+    };
+    std::vector<Voxel> beside;
+    for (const Voxel & flipped : m_Flipped)
+    {
+      for (std::int32_t i = 0; i < 27; ++i)
+      {
+        beside.push_back({ flipped[0] + i % 3 - 1, flipped[1] + i / 3 % 3 - 1, flipped[2] + i / 9 - 1 });
+      }
+    }
+    ranges::sort(beside, inScanOrder);
+    beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+    std::vector<Voxel> all;
+    std::set_difference(before.begin(),
+                        before.end(),
+                        beside.begin(),
+                        beside.end(),
+                        std::back_inserter(all),
+                        inScanOrder);
+    const auto others = static_cast<std::ptrdiff_t>(all.size());
+    std::copy_if(beside.begin(), beside.end(), std::back_inserter(all), [&](const Voxel & voxel) {
+      const Neighbourhood around = m_Shape.Around(voxel);
+      return around != 0 && around != kAll27 && !IsSimpleVoxel(around & ~kCentre27);
+    });
+    std::inplace_merge(all.begin(), all.begin() + others, all.end(), inScanOrder);
+    return all;
+  }
+
+  void
   PutIn(const Voxel & voxel)
   {
     const Neighbourhood around = m_Shape.Around(voxel);
@@ -100,23 +144,22 @@ private:
     const Pieces        background = BackgroundPieces(around);
     if (shape.count == 0 || (shape.count == 1 && background.count == 1))
     {
-      return false;
+      return;
     }
     const auto components = m_Components.Apart(voxel, shape);
     if (!components || (background.count > 1 && !HangTogether(m_Shape, voxel, background, true)))
     {
-      return false;
+      return;
     }
-    m_Shape.Flip(voxel);
+    Flip(voxel);
     ++m_Result.voxelsAdded;
     m_Result.piecesJoined += shape.count - 1;
     m_Result.loopsClosed += background.count > 1 ? background.count - 1 : 0;
     m_Result.cavitiesFilled += background.count == 0 ? 1 : 0;
     m_Components.Join(voxel, *components);
-    return true;
   }
 
-  bool
+  void
   TakeOut(const Voxel & voxel)
   {
     const Neighbourhood around = m_Shape.Around(voxel);
@@ -124,12 +167,18 @@ private:
     if (shape.count < 2 || BackgroundPieces(around).count != 1 || FieldAround(m_Shape, voxel) >= kFieldHalf ||
         !StandsOnSomethingThick(voxel) || !HangTogether(m_Shape, voxel, shape, false))
     {
-      return false;
+      return;
     }
-    m_Shape.Flip(voxel);
+    Flip(voxel);
     ++m_Result.voxelsRemoved;
     m_Result.loopsClosed += shape.count - 1;
-    return true;
+  }
+
+  void
+  Flip(const Voxel & voxel)
+  {
+    m_Shape.Flip(voxel);
+    m_Flipped.push_back(voxel);
   }
 
   /** Loops of rods as thin as a voxel are not noise. */
@@ -142,9 +191,10 @@ private:
     });
   }
 
-  PaddedShape   m_Shape;
-  GrowingPieces m_Components;
-  MendedShape   m_Result;
+  PaddedShape        m_Shape;
+  GrowingPieces      m_Components;
+  std::vector<Voxel> m_Flipped; ///< in this pass
+  MendedShape        m_Result;
 };
 
 } // namespace
