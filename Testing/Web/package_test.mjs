@@ -114,6 +114,33 @@ await test('the API gives the same bytes, and their arrays', async () => {
   }
 });
 
+await test('voxels to be shown are those of the file', async () => {
+  const [nx, ny, nz] = [7, 5, 6];
+  const seed = Number(process.env.VOXELCORE_SEED ?? Date.now() % 1000000);
+  console.log(`seed ${seed}`);
+  const stored = Int16Array.from({ length: nx * ny * nz }, (_, i) => ((i + seed) * 7919) % 4 * 250);
+  const head = `NRRD0004\ntype: int16\ndimension: 3\nspace: left-posterior-superior\nsizes: ${nx} ${ny} ${nz}\n` +
+    'space directions: (0,0,2) (-3,0,0) (0,1,0)\nspace origin: (1,2,3)\nendian: little\nencoding: raw\n\n';
+  const file = ['some.nrrd', new Uint8Array(Buffer.concat([Buffer.from(head), Buffer.from(stored.buffer)]))];
+  const shown = await api.voxels(['--', 'some.nrrd'], [file]);
+  assert.deepEqual([shown.size, shown.step, shown.origin, shown.unit], [[nx, ny, nz], 1, [1, 2, 3], 'mm']);
+  assert.deepEqual(shown.axes, [[0, 0, 2], [-3, 0, 0], [0, 1, 0]]);
+  assert.deepEqual([...shown.labels].sort((a, b) => a - b), [250, 500, 750]);
+  assert.deepEqual(Array.from(shown.values, (code) => (code === 0 ? 0 : shown.labels[code - 1])), [...stored]);
+  const few = await api.voxels(['--', 'some.nrrd'], [file], { most: 40 });
+  assert.deepEqual([few.size, few.step, few.axes], [[4, 3, 3], 2, [[0, 0, 4], [-6, 0, 0], [0, 2, 0]]]);
+  few.values.forEach((code, i) => {
+    const [x, y, z] = [i % 4, Math.floor(i / 4) % 3, Math.floor(i / 12)];
+    assert.equal(code === 0 ? 0 : few.labels[code - 1], stored[2 * x + nx * (2 * y + ny * 2 * z)]);
+  });
+  const grey = await api.voxels(['--threshold=100:inf', '--', 'some.nrrd'], [file]);
+  assert.deepEqual([grey.window, grey.labels], [[0, 750], undefined]);
+  grey.values.forEach((code, i) => assert.ok(Math.abs(code * 750 / 255 - stored[i]) < 3));
+  assert.equal(await api.voxels(['--', 'one.obj'],
+    [['one.obj', new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')]]), null);
+  await assert.rejects(api.voxels(['--', 'no.nrrd'], [['no.nrrd', new TextEncoder().encode('hello')]]), /no\.nrrd/);
+});
+
 await test('bad files and words get the line and the exit code of the program', async () => {
   const nifti = Buffer.alloc(352);
   nifti.writeInt32LE(348, 0);

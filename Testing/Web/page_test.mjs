@@ -1,6 +1,6 @@
 // The page of Applications/web in headless Chromium, against the native program.
 // usage: node page_test.mjs PROGRAM PACKAGE FOLDER PART    PACKAGE: of Applications/web/build.sh; FOLDER: to work in
-// PART: results, wrong, labels, folders, cancel, offline, file or phone. Exit code 77: no Chromium, npm or package.
+// PART: results, slices, wrong, labels, folders, cancel, offline, file or phone. Exit code 77: no Chromium, npm or package.
 
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -242,6 +242,131 @@ const parts = {
     await alone.waitForSelector('body[data-state=ready]');
     await alone.close();
     page.foreign = page.foreign.filter((url) => url !== pathToFileURL(copy).href);
+    await close(page);
+  },
+
+  async slices() {
+    // What a plane cuts of a polygon: two points in it, on the polygon's sides.
+    const { axesOfSpace, cut, freeLines } = await import(pathToFileURL(path.join(root, 'Applications/web/page/slices.js')));
+    const seed = Number(process.env.VOXELCORE_SEED ?? Date.now() % 1000000);
+    console.log(`seed ${seed}`);
+    let state = seed;
+    const random = () => {
+      state = (state * 1103515245 + 12345) % 2147483648;
+      return state / 2147483648;
+    };
+    for (let round = 0; round < 200; ++round) {
+      const points = Float32Array.from({ length: 12 }, () => 10 * random());
+      const mesh = {
+        polys: { offsets: [0, 3, 6], connectivity: [0, 1, 2, 1, 2, 3] },
+        lines: { offsets: [0, 2], connectivity: [0, 3] },
+      };
+      const [axis, at] = [round % 3, 10 * random()];
+      const above = (i) => points[3 * i + axis] >= at;
+      const expected = [
+        [0, 1, 2],
+        [1, 2, 3],
+      ].filter((face) => new Set(face.map(above)).size === 2).length;
+      const none = { offsets: [0], connectivity: [] };
+      const found = cut(points, { ...mesh, lines: none }, axis, at);
+      equal(found.length, expected, 'segments in a plane');
+      for (const end of found.flat()) check(Math.abs(end[axis] - at) < 1e-4, `an end lies ${end[axis] - at} off its plane`);
+      const near = [0, 3].some((i) => Math.abs(points[3 * i + axis] - at) <= 0.75) || above(0) !== above(3);
+      equal(cut(points, { ...mesh, polys: none }, axis, at).length, near ? 1 : 0, 'lines beside a plane');
+    }
+    const free = freeLines({
+      polys: { offsets: [0, 3], connectivity: [4, 2, 7] },
+      lines: { offsets: [0, 4], connectivity: [2, 4, 5, 7] },
+    });
+    equal(JSON.stringify(free), '{"offsets":[0,2,4],"connectivity":[4,5,5,7]}', 'lines on no face');
+    const turned = axesOfSpace([
+      [0, 0.1, -2],
+      [0.9, 0, 0],
+      [0.1, 0.5, 0],
+    ]);
+    equal(JSON.stringify(turned.map(({ axis, sign }) => axis * sign)), '[1,2,0]', 'axes of the space');
+
+    // A bar of two labels in a scan that runs against x and has z first: left of the patient is label 2.
+    const own = fs.mkdtempSync(path.join(folder, 'slices-'));
+    const name = path.join(own, 'bar.nrrd');
+    const [nz, nx, ny] = [24, 40, 20];
+    const voxels = Buffer.alloc(nz * nx * ny);
+    for (let j = 6; j < 14; ++j)
+      for (let i = 4; i < 36; ++i) voxels.fill(i < 20 ? 2 : 1, 8 + nz * (i + nx * j), 16 + nz * (i + nx * j));
+    const head =
+      'NRRD0004\ntype: uint8\ndimension: 3\nspace: left-posterior-superior\nsizes: 24 40 20\n' +
+      'space directions: (0,0,2) (-1,0,0) (0,1,0)\nspace origin: (39,0,0)\nencoding: raw\n\n';
+    fs.writeFileSync(name, Buffer.concat([Buffer.from(head), voxels]));
+    const page = await open();
+    await give(page, name);
+    const slider = (axis) => page.locator(`#across-${axis}`);
+    await slider('z').waitFor();
+    equal(await slider('z').getAttribute('max'), '23', 'slices across z');
+    equal(await slider('x').getAttribute('max'), '39', 'slices across x');
+    const drawn = () => page.evaluate(() => new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); }));
+    /** Colour of a place of a canvas, in parts of its sides: red, green, blue. */
+    const color = async (plane, u, v) => {
+      await drawn();
+      return page.evaluate(
+        ([index, x, y]) => {
+          const canvas = document.querySelectorAll('#planes canvas')[index];
+          const [px, py] = [Math.round(x * canvas.width), Math.round(y * canvas.height)];
+          return [...canvas.getContext('2d').getImageData(px, py, 1, 1).data.slice(0, 3)].join(' ');
+        },
+        [plane, u, v],
+      );
+    };
+    const [left, right] = [await color(0, 0.35, 0.45), await color(0, 0.65, 0.45)];
+    check(left !== right && left !== '0 0 0' && right !== '0 0 0', `across z: ${left} and ${right}`);
+    equal(await color(1, 0.35, 0.45), left, 'the same label across y');
+    equal(await color(0, 0.02, 0.2), '0 0 0', 'beside the bar');
+    await slider('z').fill('2'); // below the bar
+    equal(await color(0, 0.35, 0.45), '0 0 0', 'a slice below the bar');
+    check((await page.textContent('#place')).includes('background'), await page.textContent('#place'));
+    const box = await page.locator('#planes canvas').nth(1).boundingBox();
+    await page.mouse.click(box.x + 0.35 * box.width, box.y + 0.5 * box.height);
+    check((await page.textContent('#place')).includes('label-1'), await page.textContent('#place'));
+    await page.mouse.click(box.x + 0.65 * box.width, box.y + 0.5 * box.height);
+    check((await page.textContent('#place')).includes('label-2'), await page.textContent('#place'));
+    await page.keyboard.press('ArrowRight');
+    await want(page, 'core', 'skeleton');
+    await compute(page);
+    const frame = await viewer(page);
+    await page.waitForFunction(() => document.getElementById('place').textContent.includes('White'));
+    const white = () =>
+      page.evaluate(() =>
+        [...document.querySelectorAll('#planes canvas')].map((canvas) => {
+          const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+          let count = 0;
+          for (let i = 0; i < data.length; i += 4) if (data[i] > 240 && data[i + 1] > 240 && data[i + 2] > 240) ++count;
+          return count;
+        }),
+      );
+    await drawn();
+    check((await white()).every((count) => count > 20), `nothing of the medial surface in a slice: ${await white()}`);
+
+    // A tap in three dimensions moves the slices.
+    const before = await page.textContent('#place');
+    const view = await frame.locator('#view').boundingBox();
+    const hit = await frame.evaluate(() => {
+      const around = Page.view.canvas.getBoundingClientRect();
+      for (let part = 0.02; part < 1; part += 0.02) {
+        const [x, y] = [around.left + part * around.width, around.top + (0.5 + 0.1 * Math.sin(60 * part)) * around.height];
+        if (Page.view.hitAt(x, y)) return [x - around.left, y - around.top];
+      }
+      return null;
+    });
+    check(hit, 'nothing is hit in the viewer');
+    await page.mouse.click(view.x + hit[0], view.y + hit[1]);
+    await page.waitForFunction((words) => document.getElementById('place').textContent !== words, before);
+    await page.locator('#slices').scrollIntoViewIfNeeded();
+    await shot(page, 'slices-1440');
+    await page.setViewportSize({ width: 390, height: 800 });
+    await drawn();
+    await shot(page, 'slices-390');
+    check((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'slices are too wide for a phone');
+
+    fs.rmSync(own, { recursive: true });
     await close(page);
   },
 

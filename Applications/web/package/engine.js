@@ -78,10 +78,27 @@ function load(module, parts) {
   });
 }
 
+/** Puts files where the program runs. */
+function give({ FS, WORKERFS }, files) {
+  FS.createPath('/', folder.slice(1), true, true);
+  putFiles(FS, WORKERFS, files);
+  FS.chdir(folder);
+}
+
 /** The table of options: see index.d.ts. */
 export async function readTable(module) {
   const program = await load(module, {});
   return JSON.parse(program.UTF8ToString(program._ParameterTable()));
+}
+
+/** A scan to be shown: see voxels() in index.d.ts. */
+export async function readVoxels(module, args, most, files) {
+  const program = await load(module, { stdin: () => null, stdout: () => {}, stderr: () => {} });
+  give(program, files);
+  const words = program.allocateUTF8(JSON.stringify({ args, most }));
+  const { at, count, error, ...scan } = JSON.parse(program.UTF8ToString(program._ReadShownScan(words)));
+  if (error !== undefined) throw new Error(error);
+  return at === undefined ? null : { ...scan, values: program.HEAPU8.slice(at, at + count) };
 }
 
 /**
@@ -106,18 +123,16 @@ export async function runProgram(module, args, { files = [], onErrorLine, isCanc
     }],
     isCancelled,
   });
-  const { FS, WORKERFS } = program;
+  const { FS } = program;
   const given = new Map();
   if (onDisk) {
     onDisk(program);
   } else {
-    FS.createPath('/', folder.slice(1), true, true);
-    putFiles(FS, WORKERFS, files);
+    give(program, files);
     for (const [name] of files) {
       const path = `${folder}/${name}`;
       given.set(path, FS.lookupPath(path, {}).node);
     }
-    FS.chdir(folder);
   }
   let code;
   try {

@@ -97,6 +97,33 @@ export function verify(
   running?: Running,
 ): Promise<Result & { agrees: boolean }>;
 
+/** A scan to be shown in slices, a byte a voxel. */
+export interface ShownScan {
+  /** Voxels along i, j, k. */
+  size: [number, number, number];
+  /** Of a large scan every `step`-th voxel along each axis is there; else 1. */
+  step: number;
+  /** Centre of the first, LPS. */
+  origin: [number, number, number];
+  /** The way from one to the next along i, j and k. */
+  axes: [number, number, number][];
+  unit: 'mm' | 'vox';
+  /** i fastest. */
+  values: Uint8Array;
+  /** Of labels: those of codes 1, 2, ..., which begin again after 255. Code 0 is the background. */
+  labels?: number[];
+  /** Of grey values, which are those of a scan with a threshold: the values that codes 0 and 255 stand for. */
+  window?: [number, number];
+}
+
+/** Reads a scan as `info` does, with the words of its command line; null for a mesh. At most `most` voxels, else every
+ *  second along each axis or fewer. */
+export function voxels(
+  args: string[],
+  files: Iterable<[string, Uint8Array | ArrayBuffer | Blob]>,
+  running?: { signal?: AbortSignal; most?: number },
+): Promise<ShownScan | null>;
+
 /** The arrays of a .vtp that VoxelCore wrote. */
 export function readVtp(bytes: Uint8Array): Promise<Mesh>;
 

@@ -153,6 +153,14 @@ export async function run(args, files = [], { onProgress, signal, allowFailure =
   };
 }
 
+const kMostShown = 256e6; // voxels
+
+/** A scan to be shown: see index.d.ts. */
+export async function voxels(args, files, { signal, most = kMostShown } = {}) {
+  const given = await Promise.all([...files].map(async ([name, data]) => [name, await readable(data)]));
+  return work({ args, files: given, most }, { signal });
+}
+
 const decoded = (bytes) => JSON.parse(new TextDecoder().decode(bytes));
 
 /** A command that reads a scan, and writes what `outputs` names unless it is asked for otherwise. */

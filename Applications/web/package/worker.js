@@ -1,12 +1,12 @@
 // A worker that runs the program: {module, args, files} in; {step} for each step, then {done}, what runProgram() gives.
-// Without args it gives the table of options.
+// Without args it gives the table of options; with `most`, voxels of a scan.
 
-import { readTable, runProgram } from './engine.js';
+import { readTable, readVoxels, runProgram } from './engine.js';
 
 const isNode = typeof process === 'object' && process.versions?.node !== undefined;
 let port = globalThis;
 
-async function run({ module, args, files }) {
+async function run({ module, args, files, most }) {
   const onErrorLine = (line) => {
     const isStep = line.startsWith('{"stage"');
     if (isStep) port.postMessage({ step: JSON.parse(line) });
@@ -17,10 +17,15 @@ async function run({ module, args, files }) {
       port.postMessage({ done: await readTable(module) });
       return;
     }
+    if (most !== undefined) {
+      const scan = await readVoxels(module, args, most, files);
+      port.postMessage({ done: scan }, scan ? [scan.values.buffer] : []);
+      return;
+    }
     const done = await runProgram(module, args, { files, onErrorLine });
     port.postMessage({ done }, done.files.map(([, bytes]) => bytes.buffer));
   } catch (reason) {
-    port.postMessage({ failed: String(reason) });
+    port.postMessage({ failed: reason.message ?? String(reason) });
   }
 }
 

@@ -53,6 +53,7 @@ const scripts = [
   [display, 'view.js'],
   [display, 'panel.js'],
   [here, 'threshold.js'],
+  [here, 'place.js'],
 ]
   .map((names) => read(...names))
   .join('');

@@ -1,13 +1,14 @@
 // The page: a scan in, what it is, what is wanted; the program in a worker; results out.
 
 import { zipSync } from 'fflate';
-import { configure, readVtp, run, table, VoxelCoreError } from 'voxelcore';
+import { configure, readVtp, run, table, VoxelCoreError, voxels } from 'voxelcore';
 
 import { Form } from './form.js';
-import { pageModel, pageOf, rangeOf } from './model.js';
+import { colorOf, pageModel, pageOf, rangeOf } from './model.js';
 import { part, textPart } from './parts.js';
 import { certificateWords, histogramOf, tableOf } from './results.js';
 import { baseOf, filesOfDrop, filesOfInput, scansAmong } from './scans.js';
+import { Slices } from './slices.js';
 
 const $ = (id) => document.getElementById(id);
 const number = (value) => value.toLocaleString('en', { maximumSignificantDigits: 5 });
@@ -53,8 +54,17 @@ let running;
 let form;
 let presets;
 let viewerTemplate;
-let colors;
+let lengthColors;
 let results = {}; // files by name
+let drawn = []; // meshes of the result: {kind, mesh}
+
+const viewer = $('viewer');
+const slices = new Slices($('slices'), (place) => viewer.contentWindow?.postMessage({ place }, '*'));
+window.addEventListener('message', ({ source, data }) => {
+  if (source !== viewer.contentWindow) return;
+  if (data.place) slices.goTo(data.place);
+  if (data.ready && slices.scan) viewer.contentWindow.postMessage({ place: slices.place() }, '*');
+});
 
 // ---- words ----
 function say(sentence) {
@@ -76,9 +86,9 @@ function calm() {
 const mainFile = () => $('main-file').value;
 const asRead = () => form.argumentsOf('info', 'Input'); // a threshold, a spacing, ...
 
-async function take(given) {
-  if (given.length === 0) return;
-  files = given;
+async function take(dropped) {
+  if (dropped.length === 0) return;
+  files = dropped;
   const scans = scansAmong(files);
   $('main-file').textContent = '';
   for (const name of scans) $('main-file').add(new Option(name, name));
@@ -113,6 +123,8 @@ async function look() {
   calm();
   $('run').disabled = true;
   labels = [];
+  drawn = [];
+  slices.hide();
   $('labels-part').hidden = $('diagnosis').hidden = $('words').hidden = true;
   $('words').open = false;
   $('what').textContent = `Reading ${mainFile()} …`;
@@ -134,6 +146,7 @@ async function look() {
     showLabels();
     $('words').hidden = false;
     $('run').disabled = false;
+    showSlices(info, signal);
   } catch (error) {
     if (signal.aborted) return;
     $('what').textContent = '';
@@ -142,13 +155,35 @@ async function look() {
   }
 }
 
-function program(before, after, how) {
-  return run(
-    [...before, ...after],
-    files.map(({ name, data }) => [name, data]),
-    how,
-  );
+const nameOfLabel = (label) => labels.find((one) => one.label === label)?.name ?? `label-${label}`;
+/** One color for a label in slices and in three dimensions: by its place among all. */
+function labelColor(label) {
+  const at = labels.findIndex((one) => one.label === label);
+  return colorOf(at < 0 ? labels.length : at);
 }
+
+/** While the scan is thought about, and beside what is computed of it. */
+async function showSlices(info, signal) {
+  slices.tell('Reading the slices …');
+  try {
+    const scan = await voxels([...asRead(), '--', mainFile()], given(), { signal });
+    if (signal.aborted) return;
+    if (!scan) {
+      slices.hide();
+      return;
+    }
+    // as the pages that the program writes have it
+    const isAnatomical =
+      /^(NRRD|NIfTI|MetaImage)/.test(info.format) && !info.notes.some((note) => note.includes('taken as LPS'));
+    slices.show(scan, { nameOf: nameOfLabel, colorOf: labelColor, isAnatomical });
+    slices.outline(drawn);
+  } catch (error) {
+    if (!signal.aborted) slices.tell(`No slices: ${error.message.replace(/^voxelcore: /, '')}`);
+  }
+}
+
+const given = () => files.map(({ name, data }) => [name, data]);
+const program = (before, after, how) => run([...before, ...after], given(), how);
 
 $('words').addEventListener('toggle', async () => {
   if (!$('words').open) return;
@@ -395,12 +430,14 @@ async function show(made, base) {
   $('histograms').replaceChildren(...figures);
 
   // Three dimensions: the offline page itself, in a frame.
-  const drawn = meshes.filter(({ mesh }) => mesh.points.length > 0);
+  drawn = meshes.filter(({ mesh }) => mesh.points.length > 0);
   $('model').hidden = $('offline').hidden = drawn.length === 0;
   $('shown').hidden = false;
+  slices.outline(drawn);
   if (drawn.length > 0) {
-    const page = pageOf(viewerTemplate, pageModel(drawn, { title: base, names, map: colors }));
-    $('viewer').srcdoc = page;
+    const about = { title: base, names, colors: labelColor, map: lengthColors };
+    const page = pageOf(viewerTemplate, pageModel(drawn, about));
+    viewer.srcdoc = page;
     $('offline').onclick = () => download(`${base}.html`, page, 'text/html').click();
   }
   $('downloads').replaceChildren(
@@ -438,7 +475,7 @@ async function start() {
     textPart('colors.json'),
   ]);
   viewerTemplate = template;
-  colors = JSON.parse(map);
+  lengthColors = JSON.parse(map);
   const place = URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }));
   configure({ wasm, worker: () => new Worker(place) }); // a classic one: a page from disk may start no other
   await prepare();

@@ -163,8 +163,8 @@ const kNames = {
   MaximumInscribedSphereRadius: 'Inscribed radius',
 };
 
-/** A colour for each label: hues by the golden angle, as branches have them. */
-function colorOf(index) {
+/** A colour for each label, by its place among those of the scan: hues by the golden angle, as branches have them. */
+export function colorOf(index) {
   const hue = (160 + index * 137.508) % 360;
   const light = [0.45, 0.55, 0.36][index % 3];
   const spread = 0.75 * Math.min(light, 1 - light);
@@ -185,10 +185,10 @@ function unitsOf(unit) {
 
 /**
  * @param {{kind: 'medial'|'curves', mesh: object}[]} meshes
- * @param {{title: string, names: Map<number, string>, map: string[]}} about
+ * @param {{title: string, names: Map<number, string>, colors: (label: number) => number[], map: string[]}} about
  * @returns {{json: string, numbers: string}} what stands in the elements `model` and `data` of the viewer's page
  */
-export function pageModel(meshes, { title, names, map }) {
+export function pageModel(meshes, { title, names, colors, map }) {
   const numbers = new Numbers();
   const each = meshes.map(({ kind, mesh }) => ({ kind, mesh, lengths: lengthsOf(mesh), cells: cellsByLabel(mesh) }));
   const ranges = {};
@@ -211,8 +211,8 @@ export function pageModel(meshes, { title, names, map }) {
   let triangles = 0;
   const labels = [...whole]
     .sort((a, b) => a - b)
-    .map((label, index) => {
-      const made = { name: names.get(label) ?? `label-${label}`, label, color: colorOf(index), ranges: {} };
+    .map((label) => {
+      const made = { name: names.get(label) ?? `label-${label}`, label, color: colors(label), ranges: {} };
       const own = {};
       for (const { kind, mesh, lengths, cells } of each) {
         if (!cells.has(label)) continue;
