@@ -244,7 +244,7 @@ to_chars(char * first, char * last, TReal value)
   return WriteReal(first, last, value, Shortest<TReal>);
 }
 
-/** \param format scientific */
+/** In scientific form. */
 template <std::floating_point TReal>
 std::to_chars_result
 to_chars(char * first, char * last, TReal value, std::chars_format)
@@ -252,7 +252,7 @@ to_chars(char * first, char * last, TReal value, std::chars_format)
   return WriteReal(first, last, value, ShortestScientific<TReal>);
 }
 
-/** \param format general */
+/** In general form. */
 template <std::floating_point TReal>
 std::to_chars_result
 to_chars(char * first, char * last, TReal value, std::chars_format, int digits)

@@ -19,7 +19,7 @@ namespace voxelcore
  *  csv (with --table that file takes the place of OUT_branches.csv), of a network OUT_contacts.csv; OUT_columns.json,
  *  which says what the columns of all tables OUT_... mean; OUT.swc, OUT.mrk.json, OUT.graphml, OUT.obj, OUT.ma with
  *  OUT.r for the others, and the folder OUT_precomputed with a file a label. In a folder there is an OUT for each
- *  label, SkeletonFolderPath(); the tables, all labels in one, are called <scan>_skeleton_branches.csv and so on. */
+ *  label, SkeletonFolderPath(); the tables, all labels in one, are called "<scan>_skeleton_branches.csv" and so on. */
 class SkeletonFiles
 {
 public:
