@@ -1,6 +1,6 @@
 #include "voxelcore/Thickness/LocalThickness.h"
 
-#include "SquareTree.h"
+#include "SquareGrid.h"
 #include "TilePainter.h"
 
 #include "voxelcore/Base/Library.h"
@@ -21,14 +21,6 @@ namespace
 {
 
 constexpr double kBoundingStep = 1.0 / 32; ///< of a voxel's shortest side
-
-Vector3
-WeightsOf(const SpacingWeights & weights)
-{
-  return { static_cast<double>(weights.weight[0]),
-           static_cast<double>(weights.weight[1]),
-           static_cast<double>(weights.weight[2]) };
-}
 
 /** Which balls may touch which tile of rows. */
 class BallsOfTiles
@@ -186,7 +178,7 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
   {
     return;
   }
-  const SquareTree tree(around != nullptr ? *around : shape, weights);
+  const SquareGrid grid(around != nullptr ? *around : shape, weights);
   const auto &     box = shape.Box();
   const double     far = std::numeric_limits<double>::infinity();
   for (std::int32_t z = 0; z < box.size[2]; ++z)
@@ -205,7 +197,7 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
           {
             const auto    x = static_cast<std::int32_t>(64 * word) + std::countr_zero(rest);
             const Vector3 centre{ box.lower[0] + x + 0.5, box.lower[1] + y + 0.5, box.lower[2] + z + 0.5 };
-            map.values[at] = static_cast<float>(2 * weights.unit * tree.Distance(centre, far));
+            map.values[at] = static_cast<float>(2 * weights.unit * grid.Distance(centre, far));
           }
         }
       }

@@ -51,27 +51,10 @@ ForRing(double middle, double least, double most, const TVisit & visit)
 
 } // namespace
 
-double
-SquaredDistance(const BoundarySquare & square, const Vector3 & place, const Vector3 & weights)
-{
-  double squared = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double half = (square[axis] & 1) != 0 ? 0.5 : 0.0;
-    const double beyond = std::max(std::abs(place[axis] - 0.5 * square[axis]) - half, 0.0) * weights[axis];
-    squared += beyond * beyond;
-  }
-  return squared;
-}
-
 NearSquares::NearSquares(const VoxelShape & shape, const SpacingWeights & weights)
   : m_Shape(shape)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    m_Weights[axis] = static_cast<double>(weights.weight[axis]);
-  }
-}
+  , m_Weights(WeightsOf(weights))
+{}
 
 void
 NearSquares::Find(const Vector3 & place, double within, std::vector<BoundarySquare> & squares) const

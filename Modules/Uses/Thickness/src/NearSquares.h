@@ -13,7 +13,9 @@
 #include "voxelcore/Lattice/SpacingWeights.h"
 #include "voxelcore/Shape/VoxelShape.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,9 +27,28 @@ namespace voxelcore
  *  the others odd ones. */
 using BoundarySquare = std::array<std::int32_t, 3>;
 
+/** Of a voxel, in units of the weights' lattice. */
+inline Vector3
+WeightsOf(const SpacingWeights & weights)
+{
+  return { static_cast<double>(weights.weight[0]),
+           static_cast<double>(weights.weight[1]),
+           static_cast<double>(weights.weight[2]) };
+}
+
 /** The squared distance of a place in lattice coordinates to a square. */
-double
-SquaredDistance(const BoundarySquare & square, const Vector3 & place, const Vector3 & weights);
+inline double
+SquaredDistance(const BoundarySquare & square, const Vector3 & place, const Vector3 & weights)
+{
+  double squared = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    const double half = (square[axis] & 1) != 0 ? 0.5 : 0.0;
+    const double beyond = std::max(std::abs(place[axis] - 0.5 * square[axis]) - half, 0.0) * weights[axis];
+    squared += beyond * beyond;
+  }
+  return squared;
+}
 
 /** The shape must outlive it. Thread-safe. */
 class NearSquares

@@ -1,7 +1,7 @@
 #include "voxelcore/Thickness/SmoothBalls.h"
 
-#include "PlaceTree.h"
-#include "SquareTree.h"
+#include "PlaceGrid.h"
+#include "SquareGrid.h"
 #include "SurfacePlaces.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/StagePlan.h"
@@ -14,7 +14,9 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace voxelcore
 {
@@ -33,7 +35,7 @@ constexpr double kReachBeyond = 1;
 
 constexpr double kNearlyTouches = 0.5; ///< of VoxelSize(), more than places err
 constexpr double kTouches = 1e-9;      ///< of a radius: rounding
-constexpr int    kMostSteps = 64;      ///< of shrinking; about four are taken
+constexpr double kApart = 1e-3;        ///< of VoxelSize(): of places that are nearer, rounding tells where one is
 constexpr double kLess = 15.0 / 16;    ///< of a radius that is too great for the labels: the next to be tried
 
 /** Side of the cube with a voxel's diagonal, mm. */
@@ -43,128 +45,167 @@ VoxelSize(const Vector3 & sides)
   return Length(sides) / std::sqrt(3.0);
 }
 
-/** mm */
-struct TouchingBall
-{
-  Vector3 centre{};
-  double  radius = 0;
-};
-
+/** Lengths in mm. */
 class BallFinder
 {
 public:
-  BallFinder(const SurfacePlaces & places, double voxel)
-    : m_Surface(places)
-    , m_Tree(places.places)
+  BallFinder(SurfacePlaces places, double voxel)
+    : m_Places(std::move(places))
+    , m_Grid(
+        m_Places.size(),
+        [this](std::size_t i) { return m_Places[i].at; },
+        kCube * voxel)
     , m_Voxel(voxel)
   {
-    Vector3 low = places.places.front();
+    m_Grid.Arrange(m_Places);
+    Vector3 low = m_Places.front().at;
     Vector3 high = low;
-    for (const Vector3 & place : places.places)
+    for (const SurfacePlace & place : m_Places)
     {
       for (std::size_t axis = 0; axis < 3; ++axis)
       {
-        low[axis] = std::min(low[axis], place[axis]);
-        high[axis] = std::max(high[axis], place[axis]);
+        low[axis] = std::min(low[axis], place.at[axis]);
+        high[axis] = std::max(high[axis], place.at[axis]);
       }
     }
     m_Most = Distance(low, high);
   }
 
-  /** The greatest one that touches a place from within; none, of radius 0, where nothing ends it. */
-  TouchingBall
-  At(std::uint32_t index, std::vector<std::uint32_t> & near) const
+  /** The balls at places first to end - 1 of those in an order of which near ones are neighbours. */
+  void
+  Find(std::size_t first, std::size_t end, std::vector<Ball> & found) const
   {
-    const Vector3 & place = m_Surface.places[index];
-    const Vector3 & normal = m_Surface.normals[index];
-    TouchingBall    ball;
-    ball.radius = 2 * m_Voxel;
-    NearPlace  nearest;
-    const auto isEmpty = [&] {
-      ball.centre = AddScaled(place, -ball.radius, normal);
-      nearest = m_Tree.Nearest(ball.centre);
-      return nearest.index == index || std::sqrt(nearest.squared) >= ball.radius * (1 - kTouches);
-    };
-    while (isEmpty())
+    Search search;
+    for (std::size_t i = first; i < end; ++i)
     {
-      if (ball.radius > m_Most)
-      {
-        return {};
-      }
-      ball.radius *= 2;
+      found[m_Grid.Order()[i]] = At(i, search);
     }
-    for (int step = 0; step < kMostSteps; ++step)
-    {
-      const Vector3 gap = Minus(place, m_Surface.places[nearest.index]);
-      const double  across = 2 * Dot(normal, gap);
-      const double  touching = across > 0 ? Dot(gap, gap) / across : ball.radius;
-      if (!(touching < ball.radius))
-      {
-        break;
-      }
-      ball.radius = touching;
-      if (isEmpty())
-      {
-        break;
-      }
-    }
-    ball.radius = MeanDistance(ball.centre, std::sqrt(nearest.squared), near);
-    return ball;
   }
 
 private:
-  /** Along normals, of the surface at places that are at most a little farther than the nearest. */
-  double
-  MeanDistance(const Vector3 & centre, double nearest, std::vector<std::uint32_t> & near) const
+  static constexpr double kCube = 2;      ///< of VoxelSize(): a cube of the grid
+  static constexpr double kGrowth = 1.25; ///< from one place's ball to the next one's
+
+  /** What searches before have left; no result depends on it. */
+  struct Search
   {
-    const double shell = kNearlyTouches * m_Voxel;
-    double       sum = 0;
-    double       weights = 0;
-    m_Tree.Within(centre, nearest + shell, near);
-    for (const std::uint32_t index : near)
-    {
-      const Vector3 gap = Minus(m_Surface.places[index], centre);
-      const double  along = Dot(m_Surface.normals[index], gap);
-      const double  part = 1 - (Length(gap) - nearest) / shell;
-      if (along > 0)
+    std::array<std::size_t, 8> others{}; ///< places that the last balls touched
+    std::size_t                next = 0; ///< of these to be replaced
+    double                     radius = 0;
+    std::vector<std::size_t>   near; ///< places
+  };
+
+  /** The greatest one that touches a place from within; none, of radius 0, where nothing ends it. Of each other place
+   *  the ball that touches both is known, and the least of these is looked for: in balls that grow until there is one,
+   *  and that shrink with what is found, as smaller ones lie in greater ones. */
+  Ball
+  At(std::size_t index, Search & search) const
+  {
+    const SurfacePlace & own = m_Places[index];
+    const double         shell = kNearlyTouches * m_Voxel;
+    Ball                 ball;
+    std::size_t          ending = index;
+    // What the ball nearly touches is looked for, too.
+    const auto wider = [&] { return Ball{ AddScaled(own.at, -ball.radius, own.normal), ball.radius + shell }; };
+    const auto touch = [&](std::size_t other) {
+      const Vector3 gap = Minus(own.at, m_Places[other].at);
+      const double  across = 2 * Dot(own.normal, gap);
+      const double  squared = Dot(gap, gap);
+      if (squared > m_Apart && squared <= ball.radius * across * (1 + kTouches) && squared / across <= ball.radius)
       {
-        sum += m_Surface.areas[index] * part * part * along;
-        weights += m_Surface.areas[index] * part * part;
+        ball.radius = squared / across;
+        ending = other;
+      }
+    };
+    for (double radius = std::max(2 * m_Voxel, kGrowth * search.radius); ending == index; radius *= 2)
+    {
+      ball.radius = radius;
+      for (const std::size_t other : search.others)
+      {
+        touch(other);
+      }
+      search.near.clear();
+      Ball around = wider();
+      m_Grid.Visit(around, [&](std::size_t other) {
+        search.near.push_back(other);
+        const double before = ball.radius;
+        touch(other);
+        const bool isSmaller = ball.radius < before;
+        if (isSmaller)
+        {
+          around = wider();
+        }
+        return isSmaller;
+      });
+      if (ending == index && radius > m_Most)
+      {
+        return {};
       }
     }
-    return weights > 0 ? std::min(sum / weights, nearest + shell) : nearest;
+    search.radius = ball.radius;
+    if (std::find(search.others.begin(), search.others.end(), ending) == search.others.end())
+    {
+      search.others[search.next++ % search.others.size()] = ending;
+    }
+    if (ball.radius > m_Most)
+    {
+      return {};
+    }
+    ball.centre = AddScaled(own.at, -ball.radius, own.normal);
+    ball.radius = MeanDistance(ball, shell, search.near);
+    return ball;
   }
 
-  const SurfacePlaces & m_Surface;
-  PlaceTree             m_Tree;
-  double                m_Voxel;
-  double                m_Most = 0;
+  /** Along normals, of the surface at places that are at most a little farther than those that end the ball. */
+  double
+  MeanDistance(const Ball & ball, double shell, std::vector<std::size_t> & near) const
+  {
+    const double reach = ball.radius + shell;
+    const auto   isFar = [&](std::size_t i) {
+      const Vector3 gap = Minus(m_Places[i].at, ball.centre);
+      return Dot(gap, gap) >= reach * reach;
+    };
+    near.erase(std::remove_if(near.begin(), near.end(), isFar), near.end());
+    const auto & order = m_Grid.Order(); // sums depend on their order, and this one goes by where the body is cut
+    std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) { return order[a] < order[b]; });
+    double sum = 0;
+    double weights = 0;
+    for (const std::size_t i : near)
+    {
+      const Vector3 gap = Minus(m_Places[i].at, ball.centre);
+      const double  along = Dot(m_Places[i].normal, gap);
+      const double  part = 1 - (Length(gap) - ball.radius) / shell;
+      if (along > 0)
+      {
+        sum += m_Places[i].area * part * part * along;
+        weights += m_Places[i].area * part * part;
+      }
+    }
+    return weights > 0 ? std::min(sum / weights, reach) : ball.radius;
+  }
+
+  SurfacePlaces m_Places; ///< in the grid's order
+  PlaceGrid     m_Grid;
+  double        m_Voxel;
+  double        m_Apart = kApart * kApart * m_Voxel * m_Voxel;
+  double        m_Most = 0;
 };
 
 PaintingBalls
-BallsAt(const SurfacePlaces &    places,
-        const VoxelShape &       shape,
-        const Vector3 &          sides,
-        const ProgressCallback & progress)
+BallsAt(SurfacePlaces places, const VoxelShape & shape, const Vector3 & sides, const ProgressCallback & progress)
 {
-  constexpr std::size_t     chunk = 256;
-  const BallFinder          finder(places, VoxelSize(sides));
-  std::vector<TouchingBall> found(places.places.size());
-  const std::size_t         chunks = (found.size() + chunk - 1) / chunk;
+  constexpr std::size_t chunk = 256;
+  std::vector<Ball>     found(places.size());
+  const BallFinder      finder(std::move(places), VoxelSize(sides));
+  const std::size_t     chunks = (found.size() + chunk - 1) / chunk;
   RunEach(
     chunks,
-    [&](std::size_t part) {
-      std::vector<std::uint32_t> near;
-      for (std::size_t i = part * chunk; i < std::min((part + 1) * chunk, found.size()); ++i)
-      {
-        found[i] = finder.At(static_cast<std::uint32_t>(i), near);
-      }
-    },
+    [&](std::size_t part) { finder.Find(part * chunk, std::min((part + 1) * chunk, found.size()), found); },
     [&](std::size_t done) {
       ReportProgress(progress, "thickness", static_cast<double>(done) / static_cast<double>(chunks));
     });
   PaintingBalls balls;
-  for (const TouchingBall & ball : found)
+  for (const Ball & ball : found)
   {
     const Vector3 centre = Over(ball.centre, sides);
     if (ball.radius > 0 && shape.Contains(static_cast<std::int32_t>(std::floor(centre[0])),
@@ -221,7 +262,7 @@ class AllowedBody
 public:
   AllowedBody(const VoxelShape & shape, const SpacingWeights & weights)
     : m_Boxes(BetweenCentres(shape))
-    , m_Tree(m_Boxes, weights)
+    , m_Squares(m_Boxes, weights)
     , m_Unit(weights.unit)
     , m_More(MoreThanBetween(weights))
   {}
@@ -232,9 +273,14 @@ public:
   {
     const Vector3 there{ place[0] + 0.5, place[1] + 0.5, place[2] + 0.5 };
     const auto    index = [&](std::size_t axis) { return static_cast<std::int32_t>(std::floor(there[axis])); };
-    return m_Boxes.Contains(index(0), index(1), index(2))
-             ? std::min(most, m_Unit * m_Tree.Distance(there, most / m_Unit) + m_More)
-             : 0;
+    if (!m_Boxes.Contains(index(0), index(1), index(2)))
+    {
+      return 0;
+    }
+    const double within = (most - m_More) / m_Unit;
+    return within <= 0 || m_Squares.IsFree(there, within)
+             ? most
+             : std::min(most, m_Unit * m_Squares.Distance(there, within) + m_More);
   }
 
 private:
@@ -253,10 +299,32 @@ private:
   }
 
   VoxelShape m_Boxes;
-  SquareTree m_Tree;
+  SquareGrid m_Squares;
   double     m_Unit;
   double     m_More;
 };
+
+/** One square of four, of planes and lines, too, and the same ones of every part of a body. */
+std::vector<std::uint32_t>
+SomeOf(const std::vector<FacingSquare> & squares)
+{
+  std::vector<std::uint32_t> some;
+  for (std::size_t i = 0; i < squares.size(); ++i)
+  {
+    const auto &  voxel = squares[i].voxel;
+    std::uint32_t mixed = 2 * squares[i].axis + (squares[i].way > 0 ? 1U : 0U);
+    for (const std::int32_t coordinate : voxel)
+    {
+      mixed = (mixed ^ static_cast<std::uint32_t>(coordinate)) * 0x9E3779B1U;
+      mixed ^= mixed >> 15U;
+    }
+    if (mixed % 4 == 0)
+    {
+      some.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+  return some;
+}
 
 PaintingBalls
 KeptToLabels(PaintingBalls balls, const VoxelShape & shape, const SpacingWeights & weights)
@@ -308,20 +376,25 @@ SmoothBalls(const VoxelShape &       shape,
   const Vector3 sides = SidesOf(weights);
   if (surface != nullptr)
   {
-    StagePlan           plan(progress, { 0.5, 0.5 });
-    const SurfacePlaces places = PlacesOn(*surface, squares, sides, plan.Next("thickness"));
-    return KeptToLabels(BallsAt(places, shape, sides, plan.Next("thickness")), shape, weights);
+    StagePlan     plan(progress, { 0.5, 0.5 });
+    SurfacePlaces places = PlacesOn(*surface, squares, sides, plan.Next("thickness"));
+    return KeptToLabels(BallsAt(std::move(places), shape, sides, plan.Next("thickness")), shape, weights);
   }
-  StagePlan           plan(progress, { 0.2, 0.2, 0.1, 0.3, 0.2 });
-  const LabelPlaces   labels(squares, sides);
-  const double        voxel = VoxelSize(sides);
-  std::vector<double> reaches(squares.size(), kFirstReach * voxel);
+  StagePlan                  plan(progress, { 0.05, 0.05, 0.02, 0.48, 0.4 });
+  const double               voxel = VoxelSize(sides);
+  std::vector<double>        reaches(squares.size());
+  std::optional<LabelPlaces> labels(std::in_place, squares, sides);
+  const VoxelRanks           ranks(shape);
   {
-    const SurfacePlaces places = labels.Find(reaches, plan.Next("thickness"));
-    const PaintingBalls balls = BallsAt(places, shape, sides, plan.Next("thickness"));
-    const VoxelOwners   owners = OwnersAmong(balls, shape, weights, plan.Next("thickness"));
-    const VoxelValues   map = ThicknessOfOwners(shape, weights, balls, owners);
-    const VoxelRanks    ranks(shape);
+    const std::vector<std::uint32_t> some = SomeOf(squares);
+    const std::vector<double>        first(some.size(), kFirstReach * voxel);
+    PaintingBalls                    balls;
+    if (SurfacePlaces places = labels->Find(some, first, plan.Next("thickness")); !places.empty())
+    {
+      balls = BallsAt(std::move(places), shape, sides, plan.Next("thickness"));
+    }
+    const VoxelOwners owners = OwnersAmong(balls, shape, weights, plan.Next("thickness"));
+    const VoxelValues map = ThicknessOfOwners(shape, weights, balls, owners);
     for (std::size_t i = 0; i < squares.size(); ++i)
     {
       const auto & voxelBehind = squares[i].voxel;
@@ -329,8 +402,11 @@ SmoothBalls(const VoxelShape &       shape,
       reaches[i] = voxel * std::clamp(kReachOfRadius * radius + kReachBeyond, kLeastReach, kMostReach);
     }
   }
-  const SurfacePlaces places = labels.Find(reaches, plan.Next("thickness"));
-  return KeptToLabels(BallsAt(places, shape, sides, plan.Next("thickness")), shape, weights);
+  std::vector<std::uint32_t> all(squares.size());
+  std::iota(all.begin(), all.end(), std::uint32_t{ 0 });
+  SurfacePlaces places = labels->Find(all, reaches, plan.Next("thickness"));
+  labels.reset();
+  return KeptToLabels(BallsAt(std::move(places), shape, sides, plan.Next("thickness")), shape, weights);
 }
 
 VoxelValues
@@ -391,14 +467,14 @@ MostBeyondVoxels(const SpacingWeights & weights)
 bool
 LieInVoxels(const PaintingBalls & balls, const VoxelShape & shape, const SpacingWeights & weights)
 {
-  const SquareTree  tree(shape, weights);
+  const SquareGrid  squares(shape, weights);
   const double      beyond = MostBeyondVoxels(weights);
   std::atomic<bool> lie = true;
   RunInParts(balls.Count() > 1000, balls.Count(), [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && lie; ++i)
     {
-      const double within = balls.radius[i] / weights.unit;
-      if (balls.radius[i] > weights.unit * tree.Distance(balls.centres[i], within) + beyond)
+      const double within = (balls.radius[i] - beyond) / weights.unit;
+      if (within > 0 && !squares.IsFree(balls.centres[i], within))
       {
         lie = false;
       }

@@ -29,19 +29,14 @@ struct FacingSquare
   std::int8_t                 way = 1; ///< -1: the voxel that is out comes before
 };
 
-/** Places and lengths in mm along the lattice's axes; in the order of the squares. */
-struct SurfacePlaces
+/** Lengths in mm along the lattice's axes. */
+struct SurfacePlace
 {
-  std::vector<Vector3> places;
-  std::vector<Vector3> normals; ///< outwards, unit length
-  std::vector<double>  areas;   ///< of the squares as seen along these
-
-  explicit SurfacePlaces(std::size_t count = 0)
-    : places(count)
-    , normals(count)
-    , areas(count)
-  {}
+  Vector3 at{};
+  Vector3 normal{}; ///< outwards, unit length
+  double  area = 0; ///< of the square as seen along it
 };
+using SurfacePlaces = std::vector<SurfacePlace>;
 
 /** All squares of a shape, in scan order of what lies behind them. */
 std::vector<FacingSquare>
@@ -62,17 +57,21 @@ public:
   LabelPlaces(const std::vector<FacingSquare> & squares, const Vector3 & sides);
   ~LabelPlaces();
 
-  /** Fits over squares within `reaches` (mm, by square) of each. The same for every number of threads.
-   *  \throws Cancelled */
+  /** At some of the squares, in ascending order; fits over all squares within `reaches` (mm) of each. The same for
+   *  every number of threads. \throws Cancelled */
   SurfacePlaces
-  Find(const std::vector<double> & reaches, const ProgressCallback & progress) const;
+  Find(const std::vector<std::uint32_t> & which,
+       const std::vector<double> &        reaches,
+       const ProgressCallback &           progress) const;
 
 private:
   struct Middles;
+  class Fitter;
   std::unique_ptr<const Middles> m_Middles;
 };
 
-/** Of a surface that something else tells. Where it is not found, the middle itself. \throws Cancelled */
+/** One for each square, of a surface that something else tells. Where it is not found, the middle itself.
+ *  \throws Cancelled */
 SurfacePlaces
 PlacesOn(const SurfaceEstimate &           surface,
          const std::vector<FacingSquare> & squares,

@@ -38,6 +38,19 @@ EightAt(float * from)
   return reinterpret_cast<EightAnywhere *>(from);
 }
 
+/** Four doubles, likewise. */
+using FourDoubles = double __attribute__((vector_size(32)));
+struct [[gnu::packed, gnu::may_alias]] FourAnywhere
+{
+  FourDoubles lanes;
+};
+
+inline const FourAnywhere *
+FourAt(const double * from)
+{
+  return reinterpret_cast<const FourAnywhere *>(from);
+}
+
 /** Bit i for each lane i that is true, which is -1. */
 inline std::uint32_t
 LanesOf(const EightIntegers & isTrue)

@@ -4,14 +4,14 @@
 //
 // The surface is known at places, one for each square of the boundary: from the labels alone (SurfacePlaces.h), or
 // where an estimate from grey values or a mesh has it. At each place the greatest ball is found that touches it from
-// within and has no other place in it; it begins small and is doubled until there is one, and is then shrunk (Ma, Bae,
+// within and has no other place in it: a ball is shrunk until it touches the one place that it may not hold (Ma, Bae,
 // Choi 2012). As between places it might bulge out, and as single places err, its radius is the mean distance, along
 // their normals, of the surface at all places that it nearly touches. On a plane, along a tube and all around a ball
 // these distances are the same, so that it makes no difference how many places there are.
 //
 // How far around a square the labels are fitted follows the thickness: what is thin must not be mixed with what is
 // near it, and what is thick needs more squares, as the least of many places that err is too small. So the map is made
-// twice, with one reach for all first.
+// twice: first with one reach for all and with one square of four, whose map is near enough to tell reaches.
 //
 // Whatever the places say, no ball reaches by more than half a part (FineBracket.h) into what lies between eight
 // centres of voxels that are out: no surface that the labels allow has that inside. So no map of these balls is above
