@@ -1,5 +1,7 @@
 #include "voxelcore/Thickness/LocalThickness.h"
 
+#include "BallsInSlab.h"
+#include "BoundingBalls.h"
 #include "SquareGrid.h"
 #include "TilePainter.h"
 
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 namespace voxelcore
 {
@@ -22,17 +25,25 @@ namespace
 
 constexpr double kBoundingStep = 1.0 / 32; ///< of a voxel's shortest side
 
+/** Layers `first` to `end` - 1 of a box, from its lowest; the first one begins a tile. */
+struct Slab
+{
+  std::int32_t first;
+  std::int32_t end;
+};
+
 /** Which balls may touch which tile of rows. */
 class BallsOfTiles
 {
 public:
-  BallsOfTiles(const PaintingBalls & balls, const VoxelBox & box, const SpacingWeights & weights)
+  BallsOfTiles(const PaintingBalls & balls, const VoxelBox & box, const Slab & slab, const SpacingWeights & weights)
     : m_Balls(balls)
     , m_Box(box)
+    , m_Slab(slab)
     , m_Unit(weights.unit)
     , m_Weights(WeightsOf(weights))
     , m_Across(static_cast<std::size_t>((box.size[1] + kTile - 1) / kTile))
-    , m_Begin(m_Across * static_cast<std::size_t>((box.size[2] + kTile - 1) / kTile) + 1, 0)
+    , m_Begin(m_Across * static_cast<std::size_t>((slab.end - slab.first + kTile - 1) / kTile) + 1, 0)
   {
     ForTiles([&](std::size_t tile, std::uint32_t /* ball */) { ++m_Begin[tile + 1]; });
     std::partial_sum(m_Begin.begin(), m_Begin.end(), m_Begin.begin());
@@ -50,7 +61,8 @@ public:
   std::array<std::int32_t, 2>
   FirstRow(std::size_t tile) const
   {
-    return { static_cast<std::int32_t>(tile % m_Across) * kTile, static_cast<std::int32_t>(tile / m_Across) * kTile };
+    return { static_cast<std::int32_t>(tile % m_Across) * kTile,
+             m_Slab.first + static_cast<std::int32_t>(tile / m_Across) * kTile };
   }
   /** In the order they are painted: the greatest value first, of equal ones the first. */
   std::vector<PaintedBall>
@@ -108,7 +120,9 @@ private:
         return RowsOf(m_Balls.centres[i][axis] - m_Box.lower[axis], radius, m_Weights[axis], m_Box.size[axis]);
       };
       const auto [firstY, endY] = rows(1);
-      const auto [firstZ, endZ] = rows(2);
+      const auto         range = rows(2);
+      const std::int32_t firstZ = std::max(range[0], m_Slab.first) - m_Slab.first;
+      const std::int32_t endZ = std::min(range[1], m_Slab.end) - m_Slab.first;
       for (std::int32_t z = firstZ / kTile; z * kTile < endZ && firstY < endY; ++z)
       {
         for (std::int32_t y = firstY / kTile; y * kTile < endY; ++y)
@@ -121,6 +135,7 @@ private:
 
   const PaintingBalls &      m_Balls;
   VoxelBox                   m_Box;
+  Slab                       m_Slab;
   double                     m_Unit;
   Vector3                    m_Weights;
   std::size_t                m_Across; ///< tiles along y
@@ -133,11 +148,12 @@ void
 PaintBalls(const VoxelShape &       shape,
            const SpacingWeights &   weights,
            const PaintingBalls &    balls,
+           const Slab &             slab,
            VoxelField<T> &          map,
            const ProgressCallback & progress)
 {
   ReportProgress(progress, "thickness", 0);
-  const BallsOfTiles tiles(balls, shape.Box(), weights);
+  const BallsOfTiles tiles(balls, shape.Box(), slab, weights);
   RunEach(
     tiles.TileCount(),
     [&](std::size_t tile) {
@@ -149,6 +165,68 @@ PaintBalls(const VoxelShape &       shape,
     });
 }
 
+Slab
+AllOf(const VoxelShape & shape)
+{
+  return { 0, shape.Box().size[2] };
+}
+
+/** Adds the balls that owners name to those that are kept, and names them as they stand there. */
+void
+KeepNamed(const PaintingBalls & balls, std::span<std::uint32_t> owners, PaintingBalls & kept)
+{
+  std::vector<std::uint32_t> names(balls.Count() + 1, 0);
+  for (const std::uint32_t owner : owners)
+  {
+    names[owner] = 1;
+  }
+  names[0] = 0;
+  for (std::size_t i = 0; i < balls.Count(); ++i)
+  {
+    if (names[i + 1] != 0)
+    {
+      kept.Add(balls.centres[i], balls.radius[i], balls.value[i]);
+      names[i + 1] = static_cast<std::uint32_t>(kept.Count());
+    }
+  }
+  for (std::uint32_t & owner : owners)
+  {
+    owner = names[owner];
+  }
+}
+
+/** Gives voxels the greatest balls that lie in the shape, of which those are kept that have one: slab by slab, so that
+ *  not all are held. A ball that has voxels in two slabs is kept twice. */
+void
+PaintInscribed(const InscribedBalls &   inscribed,
+               const VoxelShape &       asked,
+               const SpacingWeights &   weights,
+               ThicknessBracket &       bracket,
+               const ProgressCallback & progress)
+{
+  constexpr std::int32_t mostSlabs = 16; // in each all of the core is looked at
+  const VoxelBox &       box = asked.Box();
+  const std::int32_t     layers = (box.size[2] / (kTile * mostSlabs) + 1) * kTile;
+  for (Slab slab{ 0, 0 }; slab.end < box.size[2];)
+  {
+    slab = { slab.end, std::min(slab.end + layers, box.size[2]) };
+    const auto          share = [&](std::int32_t layer) { return static_cast<double>(layer) / box.size[2]; };
+    const PaintingBalls balls = inscribed.Find(box.lower[2] + slab.first, box.lower[2] + slab.end);
+    PaintBalls(asked,
+               weights,
+               balls,
+               slab,
+               bracket.owners,
+               PartOfProgress(progress, share(slab.first), share(slab.end)));
+    const auto startOf = [&](std::int32_t layer) {
+      return bracket.owners.rowStarts[static_cast<std::size_t>(layer) * static_cast<std::size_t>(box.size[1])];
+    };
+    KeepNamed(balls,
+              std::span(bracket.owners.values).subspan(startOf(slab.first), startOf(slab.end) - startOf(slab.first)),
+              bracket.balls);
+  }
+}
+
 } // namespace
 
 void
@@ -158,7 +236,7 @@ PaintThickness(const VoxelShape &       shape,
                VoxelValues &            map,
                const ProgressCallback & progress)
 {
-  PaintBalls(shape, weights, balls, map, progress);
+  PaintBalls(shape, weights, balls, AllOf(shape), map, progress);
 }
 
 void
@@ -168,7 +246,7 @@ PaintOwners(const VoxelShape &       shape,
             VoxelOwners &            owners,
             const ProgressCallback & progress)
 {
-  PaintBalls(shape, weights, balls, owners, progress);
+  PaintBalls(shape, weights, balls, AllOf(shape), owners, progress);
 }
 
 void
@@ -208,26 +286,9 @@ FillWithOwnBalls(const VoxelShape & shape, const SpacingWeights & weights, Voxel
 void
 KeepOwners(PaintingBalls & balls, VoxelOwners & owners)
 {
-  std::vector<std::uint32_t> names(balls.Count() + 1, 0);
-  for (const std::uint32_t owner : owners.values)
-  {
-    names[owner] = 1;
-  }
   PaintingBalls kept;
-  names[0] = 0;
-  for (std::size_t i = 0; i < balls.Count(); ++i)
-  {
-    if (names[i + 1] != 0)
-    {
-      kept.Add(balls.centres[i], balls.radius[i], balls.value[i]);
-      names[i + 1] = static_cast<std::uint32_t>(kept.Count());
-    }
-  }
+  KeepNamed(balls, owners.values, kept);
   balls = std::move(kept);
-  for (std::uint32_t & owner : owners.values)
-  {
-    owner = names[owner];
-  }
 }
 
 VoxelValues
@@ -254,21 +315,22 @@ BracketThickness(const VoxelShape &            shape,
                  const VoxelShape *            part)
 {
   const VoxelShape & asked = part != nullptr ? *part : shape;
-  StagePlan          plan(progress, { 0.4, upper ? 0.3 : 0.6, upper ? 0.3 : 0.0 });
-  ThicknessBalls     balls =
-    FindThicknessBalls(shape, points, cells, weights, upper ? kBoundingStep : 0, plan.Next("thickness"));
-  ThicknessBracket bracket;
-  bracket.reach = balls.reach;
+  StagePlan          plan(progress, { 0.1, upper ? 0.4 : 0.9, upper ? 0.5 : 0.0 });
+  ThicknessBracket   bracket;
+  ReportProgress(plan.Next("thickness"), "thickness", 0);
+  const CoreBalls core = FindCoreBalls(points, cells, weights);
+  for (const double radius : core.radius)
+  {
+    bracket.reach = std::max(bracket.reach, radius * core.unit);
+  }
   bracket.owners = ZeroAtVoxels<std::uint32_t>(asked);
-  PaintOwners(asked, weights, balls.inscribed, bracket.owners, plan.Next("thickness"));
-  bracket.balls = std::move(balls.inscribed);
-  KeepOwners(bracket.balls, bracket.owners);
+  PaintInscribed(InscribedBalls(shape, core, weights), asked, weights, bracket, plan.Next("thickness"));
   bracket.lower = DiametersOfOwners(bracket.balls, bracket.owners);
   FillWithOwnBalls(asked, weights, bracket.lower, &shape);
   if (upper)
   {
     bracket.upper = ZeroAtVoxels<float>(asked);
-    PaintThickness(asked, weights, balls.bounding, bracket.upper, plan.Next("thickness"));
+    PaintThickness(asked, weights, BoundingBalls(shape, core, kBoundingStep), bracket.upper, plan.Next("thickness"));
   }
   return bracket;
 }

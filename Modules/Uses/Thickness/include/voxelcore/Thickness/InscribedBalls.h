@@ -68,7 +68,6 @@ struct ThicknessBalls
 {
   PaintingBalls inscribed; ///< value = radius: the exact distance to the nearest boundary square
   PaintingBalls bounding;  ///< as said above; empty where they were not asked for
-  double        reach = 0; ///< the greatest R of a core vertex, mm
 };
 
 /** The balls of a shape, whose boundary vertices, as BoundaryVertices() gives them, are `points` and whose cells are
