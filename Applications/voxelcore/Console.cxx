@@ -1,10 +1,10 @@
 #include "Console.h"
 
+#include "StandardStreams.h"
 #include "voxelcore/Base/PlainText.h"
 
 #include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -36,24 +36,9 @@ Console::Console()
   : m_Output(STDOUT_FILENO)
   , m_Error(STDERR_FILENO)
 {
-  if (std::getenv("VOXELCORE_LIBRARY_MESSAGES") != nullptr)
+  if (std::getenv("VOXELCORE_LIBRARY_MESSAGES") == nullptr)
   {
-    return;
-  }
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0)
-  {
-    return;
-  }
-  // Above 2, so that a library that opens a file never gets a descriptor it takes for a standard stream. A stream that
-  // was closed from the start stays closed: then the copy fails and writes to it do, too.
-  m_Output = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
-  m_Error = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
-  if (nowhere > STDERR_FILENO)
-  {
-    close(nowhere);
+    TakeStandardStreams(m_Output, m_Error);
   }
 }
 

@@ -5,7 +5,6 @@
 #include "../voxelcore/Signals.h"
 #include "voxelcore/Options/Parameters.h"
 
-#include <cmath>
 #include <emscripten.h>
 #include <nlohmann/json.hpp>
 
@@ -18,28 +17,6 @@ const char *                         leftBehind = nullptr;
 } // namespace
 
 EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["isCancelled"]() ? 1 : 0; });
-
-// Functions whose last bits the C library here has otherwise than that of Debian's programs: rounded from twice the
-// digits, which that is but for one value in a thousand.
-extern "C"
-{
-#define VOXELCORE_ROUNDED(name)             \
-  double name(double x)                     \
-  {                                         \
-    return static_cast<double>(name##l(x)); \
-  }
-  VOXELCORE_ROUNDED(sin)
-  VOXELCORE_ROUNDED(cos)
-  VOXELCORE_ROUNDED(tan)
-  VOXELCORE_ROUNDED(asin)
-  VOXELCORE_ROUNDED(acos)
-#undef VOXELCORE_ROUNDED
-  double
-  atan2(double y, double x)
-  {
-    return static_cast<double>(atan2l(y, x));
-  }
-}
 
 // {commands: [{name, description, footer}], options: [{name, flags, kind, placeholder, default, required, commands,
 // description, group}]}; the text lives as long as the program.

@@ -8,17 +8,7 @@ source_folder=$(cd "$here/../.." && pwd)
 mkdir -p "${1:-build-web}"
 build=$(cd "${1:-build-web}" && pwd)
 bash "$here/../install-packages.sh" web
-# shellcheck source=flags.sh
-source "$here/flags.sh"
-
-bash "$here/libraries.sh" "$build/libraries"
-emcmake cmake -S "$source_folder" -B "$build/program" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DCMAKE_CXX_FLAGS="${web_flags[*]} -isystem $build/libraries/include" -DCMAKE_CXX_FLAGS_RELEASE=-DNDEBUG \
-  -DCMAKE_FIND_ROOT_PATH="$build/libraries" -DCMAKE_PREFIX_PATH=/ -DCMAKE_MODULE_PATH="$here/cmake" \
-  -DBoost_INCLUDE_DIR="$build/libraries/include" \
-  -DBUILD_TESTING=OFF -DVOXELCORE_INSTALL=OFF -DVOXELCORE_VTK=OFF -DVOXELCORE_TETGEN=OFF \
-  -DVOXELCORE_PYTHON=OFF -DVOXELCORE_CCACHE=OFF >"$build/configure.log" || { cat "$build/configure.log" >&2; exit 1; }
-cmake --build "$build/program" --target voxelcore
+bash "$here/../portable/build.sh" wasm "$build"
 
 # The package: the program, JavaScript around it, and the licences of all that is in it.
 package=$build/package

@@ -174,6 +174,12 @@ RemoveNow(const char * path, bool withContents)
   }
 }
 
+std::FILE *
+OpenToWrite(const std::filesystem::path & path, bool isNew)
+{
+  return std::fopen(path.c_str(), isNew ? "wbx" : "wb");
+}
+
 void
 GiveBackFreeMemory()
 {

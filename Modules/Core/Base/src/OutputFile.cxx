@@ -1,6 +1,7 @@
 #include "voxelcore/Base/OutputFile.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Base/TemporaryNames.h"
 
 #include <cerrno>
@@ -34,7 +35,7 @@ OpenForWriting(const std::filesystem::path & path)
   }
   errno = 0;
   // Others can guess a temporary name, and in a folder they may write to put a link there: it must be new.
-  std::FILE * const file = std::fopen(path.c_str(), WriterOf(path) ? "wbx" : "wb");
+  std::FILE * const file = OpenToWrite(path, WriterOf(path).has_value());
   if (!file)
   {
     FailOutput(path, errno);
@@ -70,8 +71,10 @@ FailOutput(const std::filesystem::path & path, int errorNumber)
       message += "; choose a folder you may write to";
       break;
     case ENOSPC:
-    case EDQUOT:
     case EFBIG:
+#ifdef EDQUOT // Windows has none
+    case EDQUOT:
+#endif
       message += "; free some space or write elsewhere";
       break;
     default:

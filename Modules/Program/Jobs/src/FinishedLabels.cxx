@@ -8,12 +8,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <sys/file.h>
-#include <unistd.h>
 #include <utility>
 
 namespace voxelcore
@@ -41,17 +38,9 @@ FinishedLabels::FinishedLabels(fs::path file, std::string key)
   , m_Key(std::move(key))
 {
   Open(false);
-  if (m_Descriptor >= 0)
+  if (m_Lock.IsOpen())
   {
     Read();
-  }
-}
-
-FinishedLabels::~FinishedLabels()
-{
-  if (m_Descriptor >= 0)
-  {
-    close(m_Descriptor); // with the lock
   }
 }
 
@@ -59,18 +48,12 @@ void
 FinishedLabels::Open(bool create)
 {
   const auto refuse = [this](const std::string & why) { throw OutputError(m_File.string() + ": " + why); };
-  m_Descriptor = open(m_File.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (create ? O_CREAT : 0), 0666);
-  if (m_Descriptor < 0)
+  m_Lock = LockedFile(m_File, create);
+  if (!m_Lock.IsOpen() && (create || errno != ENOENT))
   {
-    if (!create && errno == ENOENT)
-    {
-      return;
-    }
-    refuse(std::string("cannot write: ") + std::strerror(errno));
-  }
-  if (flock(m_Descriptor, LOCK_EX | LOCK_NB) != 0)
-  {
-    refuse("another run is writing into this folder; wait for it, or give another folder");
+    refuse(errno == EWOULDBLOCK
+             ? "another run is writing into this folder; wait for it, or give another folder"
+             : std::string("cannot write: ") + std::strerror(errno));
   }
 }
 
@@ -257,21 +240,15 @@ FinishedLabels::StagedInFolder(const OutputTransaction & transaction) const
 void
 FinishedLabels::Append(const Line & line)
 {
-  if (m_Descriptor < 0)
+  if (!m_Lock.IsOpen())
   {
     Open(true);
   }
   const std::string text = (m_EndsInLine ? "" : "\n") + LineText(line);
   m_EndsInLine = false; // until all of it is there
-  for (std::size_t at = 0; at < text.size();)
+  if (!m_Lock.Append(text))
   {
-    // A network folder, or a signal, may take a part of it.
-    const ssize_t written = write(m_Descriptor, text.data() + at, text.size() - at);
-    if (written < 0 && errno != EINTR)
-    {
-      throw OutputError(m_File.string() + ": cannot write: " + std::strerror(errno));
-    }
-    at += written > 0 ? static_cast<std::size_t>(written) : 0;
+    throw OutputError(m_File.string() + ": cannot write: " + std::strerror(errno));
   }
   m_EndsInLine = true;
 }

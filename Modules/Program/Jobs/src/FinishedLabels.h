@@ -2,6 +2,7 @@
 // What labels of a folder are finished, so that a run that was stopped, however, goes on.
 
 #include "voxelcore/Jobs/OutputTransaction.h"
+#include "voxelcore/Jobs/SystemFiles.h"
 #include "voxelcore/Report/CoreReport.h"
 
 #include <filesystem>
@@ -29,11 +30,6 @@ public:
    *  were made with this key are removed when they are looked for.
    *  \throws OutputError also when another run is writing into it. */
   FinishedLabels(std::filesystem::path file, std::string key);
-  FinishedLabels(const FinishedLabels &) = delete;
-  FinishedLabels &
-  operator=(const FinishedLabels &) = delete;
-  ~FinishedLabels();
-
   /** The label, where it is finished with this key. */
   std::optional<Label>
   Find(std::int64_t value, std::int64_t component, const std::string & name) const;
@@ -92,7 +88,7 @@ private:
 
   std::filesystem::path m_File;
   std::string           m_Key;
-  int                   m_Descriptor = -1;
+  LockedFile            m_Lock;
   bool                  m_EndsInLine = true; ///< else a kill cut the last one off
   std::vector<Line>     m_Lines;
 };

@@ -2,13 +2,12 @@
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/TemporaryNames.h"
+#include "voxelcore/Jobs/SystemFiles.h"
 
 #include <cerrno>
 #include <cstring>
 #include <exception>
-#include <fcntl.h>
 #include <string>
-#include <unistd.h>
 
 namespace voxelcore
 {
@@ -148,7 +147,7 @@ OutputTransaction::CheckTarget(const fs::path & target) const
   {
     ThrowOutputError(target, "cannot write: the folder " + directory.string() + " does not exist; make it first");
   }
-  if (error || access(directory.c_str(), W_OK | X_OK) != 0)
+  if (error || !MayWriteInto(directory))
   {
     ThrowOutputError(target,
                      "cannot write into the folder " + directory.string() + ": " +

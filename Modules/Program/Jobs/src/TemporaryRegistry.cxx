@@ -2,7 +2,6 @@
 #include "voxelcore/Jobs/OutputTransaction.h"
 
 #include <memory>
-#include <string>
 
 namespace voxelcore
 {
@@ -11,7 +10,7 @@ namespace fs = std::filesystem;
 
 struct TemporaryRegistry::Entry
 {
-  std::string       path;
+  fs::path          path;
   bool              withContents = false;
   std::atomic<bool> live{ true };
   Entry *           next = nullptr;
@@ -32,7 +31,7 @@ TemporaryRegistry::Add(const fs::path & path, bool withContents)
   auto entry = std::make_unique<Entry>();
   entry->withContents = withContents;
   // The handler may run after the working directory is gone from under a relative name.
-  entry->path = fs::absolute(path).string();
+  entry->path = fs::absolute(path);
   entry->next = m_Head.load();
   while (!m_Head.compare_exchange_weak(entry->next, entry.get()))
   {}
@@ -42,10 +41,10 @@ TemporaryRegistry::Add(const fs::path & path, bool withContents)
 void
 TemporaryRegistry::Forget(const fs::path & path)
 {
-  const std::string name = fs::absolute(path).string();
+  const fs::path name = fs::absolute(path);
   for (Entry * entry = m_Head.load(); entry != nullptr; entry = entry->next)
   {
-    if (entry->live && entry->path == name) // mostly one of the youngest: a batch adds thousands
+    if (entry->live && entry->path.native() == name.native()) // mostly one of the youngest: a batch adds thousands
     {
       entry->live = false;
       return;

@@ -36,7 +36,7 @@ public:
     // m: no memory mapping, where a file cut short meanwhile would end the process.
     m_Tiff = m_SystemError != 0
                ? nullptr
-               : TIFFClientOpenExt(path.c_str(), "rm", this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
+               : TIFFClientOpenExt(path.string().c_str(), "rm", this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
     TIFFOpenOptionsFree(options);
     if (m_Tiff == nullptr)
     {

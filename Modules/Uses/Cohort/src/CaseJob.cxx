@@ -4,11 +4,11 @@
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Cohort/CaseRecord.h"
+#include "voxelcore/Jobs/SystemFiles.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <unistd.h>
 #include <utility>
 
 namespace voxelcore
@@ -234,7 +234,7 @@ std::string
 TroubleWritingInto(const fs::path & folder)
 {
   const std::string trouble = TroubleWith(folder);
-  return !trouble.empty() || access(folder.c_str(), R_OK | W_OK | X_OK) == 0
+  return !trouble.empty() || MayWriteInto(folder)
            ? trouble
            : folder.string() + ": cannot write into this folder: " + std::strerror(errno);
 }

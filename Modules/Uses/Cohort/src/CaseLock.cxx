@@ -4,10 +4,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <utility>
 
 namespace voxelcore
@@ -15,41 +11,19 @@ namespace voxelcore
 
 namespace fs = std::filesystem;
 
-CaseLock::CaseLock(fs::path file, int descriptor)
+CaseLock::CaseLock(fs::path file, LockedFile lock)
   : m_File(std::move(file))
-  , m_Descriptor(descriptor)
+  , m_Lock(std::move(lock))
 {}
-
-CaseLock::CaseLock(CaseLock && other) noexcept
-  : m_File(std::move(other.m_File))
-  , m_Descriptor(std::exchange(other.m_Descriptor, -1))
-{}
-
-CaseLock &
-CaseLock::operator=(CaseLock && other) noexcept
-{
-  Release();
-  m_File = std::move(other.m_File);
-  m_Descriptor = std::exchange(other.m_Descriptor, -1);
-  return *this;
-}
 
 CaseLock::~CaseLock()
 {
-  Release();
-}
-
-void
-CaseLock::Release()
-{
-  if (m_Descriptor >= 0)
+  if (m_Lock.IsOpen())
   {
     // Removed while it is held: whoever waits for this file finds that it is no longer the one of this name.
     std::error_code ignored;
     fs::remove(m_File, ignored);
     fs::remove(m_File.parent_path(), ignored); // the last one; not when others are there
-    close(m_Descriptor);
-    m_Descriptor = -1;
   }
 }
 
@@ -68,33 +42,19 @@ CaseLock::Try(const fs::path & file)
     {
       throw OutputError(folder.string() + ": cannot make this folder for locks: " + error.message());
     }
-    const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor < 0 && errno == ENOENT)
+    LockedFile lock(file, true);
+    if (lock.IsOpen() && lock.Is(file))
     {
-      continue; // another process has just removed the empty folder
+      return CaseLock(file, std::move(lock));
     }
-    if (descriptor < 0)
+    if (!lock.IsOpen() && errno == EWOULDBLOCK)
+    {
+      return std::nullopt;
+    }
+    if (!lock.IsOpen() && errno != ENOENT) // else another process has just removed the empty folder
     {
       throw OutputError(file.string() + ": cannot make this lock: " + std::strerror(errno));
     }
-    if (flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-    {
-      const int reason = errno;
-      close(descriptor);
-      if (reason == EWOULDBLOCK)
-      {
-        return std::nullopt;
-      }
-      throw OutputError(file.string() + ": cannot lock: " + std::strerror(reason));
-    }
-    struct stat held = {};
-    struct stat named = {};
-    if (fstat(descriptor, &held) == 0 && stat(file.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
-        held.st_dev == named.st_dev)
-    {
-      return CaseLock(file, descriptor);
-    }
-    close(descriptor);
   }
 }
 

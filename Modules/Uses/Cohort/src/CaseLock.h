@@ -1,6 +1,8 @@
 #pragma once
 // One process at a time works on a case, whichever batch it belongs to.
 
+#include "voxelcore/Jobs/SystemFiles.h"
+
 #include <filesystem>
 #include <optional>
 
@@ -16,24 +18,22 @@ public:
   static std::optional<CaseLock>
   Try(const std::filesystem::path & file);
 
-  CaseLock(CaseLock && other) noexcept;
+  CaseLock(CaseLock && other) noexcept = default;
   CaseLock &
-  operator=(CaseLock && other) noexcept;
+  operator=(CaseLock && other) = delete;
   ~CaseLock();
 
   int
   Descriptor() const
   {
-    return m_Descriptor;
+    return m_Lock.Descriptor();
   }
 
 private:
-  CaseLock(std::filesystem::path file, int descriptor);
-  void
-  Release();
+  CaseLock(std::filesystem::path file, LockedFile lock);
 
   std::filesystem::path m_File;
-  int                   m_Descriptor = -1;
+  LockedFile            m_Lock;
 };
 
 } // namespace voxelcore

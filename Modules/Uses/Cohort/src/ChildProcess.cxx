@@ -86,6 +86,23 @@ void
 RequireChildProcesses()
 {}
 
+std::vector<bool>
+WaitUntilReadable(const std::vector<int> & descriptors, int milliseconds)
+{
+  std::vector<pollfd> watched;
+  for (const int descriptor : descriptors)
+  {
+    watched.push_back({ descriptor, POLLIN, 0 });
+  }
+  poll(watched.data(), watched.size(), milliseconds);
+  std::vector<bool> readable;
+  for (const pollfd & one : watched)
+  {
+    readable.push_back(one.revents != 0);
+  }
+  return readable;
+}
+
 ChildProcess::ChildProcess(const std::vector<std::string> & arguments, int lock)
 {
   std::array<int, 2> channel{ -1, -1 };

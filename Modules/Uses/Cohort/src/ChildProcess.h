@@ -22,6 +22,10 @@ struct ChildEnd
 void
 RequireChildProcesses();
 
+/** Waits so long for one of these descriptors to become readable. \returns which are; a negative one never is */
+std::vector<bool>
+WaitUntilReadable(const std::vector<int> & descriptors, int milliseconds);
+
 class ChildProcess
 {
 public:

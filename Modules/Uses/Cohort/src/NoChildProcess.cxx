@@ -14,6 +14,12 @@ RequireChildProcesses()
   throw UsageError("batch starts a process for each case, which this build cannot; run core or roots on each scan");
 }
 
+std::vector<bool>
+WaitUntilReadable(const std::vector<int> & descriptors, int)
+{
+  return std::vector<bool>(descriptors.size());
+}
+
 ChildProcess::ChildProcess(const std::vector<std::string> &, int)
 {
   RequireChildProcesses();

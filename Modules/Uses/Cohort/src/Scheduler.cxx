@@ -8,9 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <poll.h>
 #include <utility>
 
 namespace voxelcore
@@ -28,6 +26,8 @@ Bytes(double megabytes)
 }
 
 constexpr int kInterrupted = 130;
+constexpr int kKill = 9;       // SIGKILL, and
+constexpr int kTerminate = 15; // SIGTERM, wherever there are signals
 constexpr int kPollMilliseconds = 200;
 
 std::string
@@ -73,11 +73,11 @@ ReasonOf(const ChildEnd & end, const std::string & killed)
   {
     return killed;
   }
-  if (end.signal == SIGKILL)
+  if (end.signal == kKill)
   {
     return "killed from outside (signal 9), most likely for want of memory; run fewer --jobs, or on a larger machine";
   }
-  if (end.code == kInterrupted || end.signal == SIGTERM)
+  if (end.code == kInterrupted || end.signal == kTerminate)
   {
     return "interrupted from outside, as some systems do for want of memory; run the batch again, with fewer --jobs";
   }
@@ -185,22 +185,22 @@ Scheduler::Begin(std::size_t job)
 void
 Scheduler::Wait()
 {
-  std::vector<pollfd> watched;
+  std::vector<int> watched;
   for (const Running & running : m_Running)
   {
-    watched.push_back({ running.process.EndDescriptor(), POLLIN, 0 });
-    watched.push_back({ running.process.RequestDescriptor(), POLLIN, 0 });
+    watched.push_back(running.process.EndDescriptor());
+    watched.push_back(running.process.RequestDescriptor());
   }
   if (m_Running.empty() && m_Elsewhere.empty())
   {
     return;
   }
-  poll(watched.data(), watched.size(), kPollMilliseconds);
-  auto watch = watched.begin();
+  const std::vector<bool> readable = WaitUntilReadable(watched, kPollMilliseconds);
+  auto                    watch = readable.begin();
   for (auto running = m_Running.begin(); running != m_Running.end();)
   {
-    const bool ended = watch++->revents != 0;
-    const bool asks = watch++->revents != 0;
+    const bool ended = *watch++;
+    const bool asks = *watch++;
     if (asks)
     {
       if (const auto wanted = running->process.TakeRequest())

@@ -13,11 +13,11 @@
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Jobs/OutputNames.h"
+#include "voxelcore/Jobs/SystemFiles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <sys/stat.h>
 #include <utility>
 
 namespace voxelcore
@@ -76,8 +76,7 @@ CoreOptionsOf(const RootsOptions & options)
 std::string
 ModificationTime(const fs::path & path)
 {
-  struct stat       status = {};
-  const std::time_t seconds = stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
+  const std::time_t seconds = LastChanged(path);
   std::tm           parts{};
   gmtime_r(&seconds, &parts);
   char text[32];

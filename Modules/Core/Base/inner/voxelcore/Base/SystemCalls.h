@@ -1,9 +1,10 @@
 #pragma once
-// What only the operating system can do or tell. src/LinuxSystem.cxx is for Linux; src/PortableSystem.cxx, taken with
-// VOXELCORE_PORTABLE, does what can be done with the C++ standard library alone.
+// What only the operating system can do or tell. src/LinuxSystem.cxx is for Linux, src/WindowsSystem.cxx for Windows;
+// src/PortableSystem.cxx, taken with VOXELCORE_PORTABLE, does what can be done with the C++ standard library alone.
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -19,7 +20,7 @@ struct ProcessFacts
   std::string   machine; ///< tells this machine from others
   std::string   space;   ///< tells this boot, and this space of process ids, from others
   std::int64_t  process = 0;
-  std::uint64_t start = 0; ///< when it began, in clock ticks since the boot
+  std::uint64_t start = 0; ///< when it began, in the system's own ticks
 };
 
 /** The portable half draws a number for each process, as if it were alone on a machine of its own. */
@@ -54,7 +55,12 @@ AvailableMemoryMb();
 /** Removes a file or an empty folder, `withContents` also what is in a folder and in folders in it. On Linux a signal
  *  handler may call it. */
 void
-RemoveNow(const char * path, bool withContents);
+RemoveNow(const std::filesystem::path::value_type * path, bool withContents);
+
+/** An empty file to write to, which `isNew` must not be there yet; null, and the reason in errno. Others may give it
+ *  another name or remove it while it is open. */
+std::FILE *
+OpenToWrite(const std::filesystem::path & path, bool isNew);
 
 /** Gives memory of an array back to the system, as far as it fills large pages. Until it is written again it holds
  *  anything. Returns how many bytes from its beginning on are done with: the next piece begins there. The portable half

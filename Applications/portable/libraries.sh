@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Builds the libraries that VoxelCore needs as WebAssembly, from Debian's sources, into a folder with include/ and lib/.
-# usage: libraries.sh FOLDER      does nothing where all are there
+# Builds the libraries that VoxelCore needs for a system, from Debian's sources, into a folder with include/ and lib/.
+# usage: libraries.sh SYSTEM FOLDER      SYSTEM: as in toolchain.sh. Does nothing where all are there
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-mkdir -p "$1"
-folder=$(cd "$1" && pwd)
-# shellcheck source=flags.sh
-source "$here/flags.sh"
+system=$1
+mkdir -p "$2"
+folder=$(cd "$2" && pwd)
+# shellcheck source=toolchain.sh
+source "$here/toolchain.sh"
 
 packages="zlib bzip2 libpng1.6 libzstd lz4 c-blosc expat libjpeg-turbo tiff libmd"
 # What is built: by these scripts, of these sources.
-made_by=$(cat "$here/libraries.sh" "$here/flags.sh" | sha256sum)
+made_by=$(cat "$here/libraries.sh" "$here/toolchain.sh" | sha256sum)
 if [ "$(cat "$folder/made-by" 2>/dev/null || true)" = "$made_by" ]; then
   exit 0
 fi
@@ -32,20 +33,22 @@ for package in $packages; do
   cp "$package/debian/copyright" "$folder/licences/$package.txt"
 done
 # Of the C library that Debian's programs have, its cube root: another's is another in the last bit.
-apt-get "${apt_options[@]}" source --download-only glibc
-tar -xf glibc_*.orig.tar.xz --strip-components=4 --one-top-level=glibc --wildcards '*/sysdeps/ieee754/dbl-64/s_cbrt.c'
-cp /usr/share/doc/libc6/copyright "$folder/licences/glibc.txt"
+if [ -n "$foreign_math" ]; then
+  apt-get "${apt_options[@]}" source --download-only glibc
+  tar -xf glibc_*.orig.tar.xz --strip-components=4 --one-top-level=glibc --wildcards '*/sysdeps/ieee754/dbl-64/s_cbrt.c'
+  cp /usr/share/doc/libc6/copyright "$folder/licences/glibc.txt"
+fi
 
 # library NAME FOLDER "FLAGS" FILE...
 library() {
-  local name=$1 from="$folder/source/$2" flags=$3 file
+  local name=$1 from="$folder/source/$2" more=$3 file
   shift 3
   mkdir -p "$folder/build/$name"
   for file in "$@"; do
     # shellcheck disable=SC2086 # flags
-    echo "cd '$from' && emcc ${web_flags[*]} -w $flags -c $file -o '$folder/build/$name/$(basename "$file" .c).o'"
+    echo "cd '$from' && $compiler ${flags[*]} -w $more -c $file -o '$folder/build/$name/$(basename "$file" .c).o'"
   done | xargs -P "$(nproc)" -d '\n' -n 1 bash -c
-  emar rcs "$folder/lib/lib$name.a" "$folder/build/$name"/*.o
+  "$archiver" rcs "$folder/lib/lib$name.a" "$folder/build/$name"/*.o
 }
 headers() { cp "$@" "$folder/include/"; }
 include="-I'$folder/include'"
@@ -75,22 +78,22 @@ printf '#define %s\n' XML_DEV_URANDOM "XML_DTD 1" "XML_NS 1" "XML_CONTEXT_BYTES 
 library expat expat "-I expat/lib" expat/lib/xmlparse.c expat/lib/xmlrole.c expat/lib/xmltok.c
 : >libmd/src/config.h
 library md libmd "-I include -I src -DSHA2_UNROLL_TRANSFORM" src/sha2.c
-touch glibc/math_private.h glibc/libm-alias-double.h
-library cbrt glibc "-I . -include math.h -ffp-contract=off -D__cbrt=cbrt -D__frexp=frexp -D__ldexp=ldexp \
-  '-Dlibm_alias_double(a,b)='" s_cbrt.c
+if [ -n "$foreign_math" ]; then
+  touch glibc/math_private.h glibc/libm-alias-double.h
+  library cbrt glibc "-I . -include math.h -ffp-contract=off -D__cbrt=cbrt -D__frexp=frexp -D__ldexp=ldexp \
+    '-Dlibm_alias_double(a,b)='" s_cbrt.c
+fi
 
-configure() { # SOURCE OPTION...
-  emcmake cmake -S "$folder/source/$1" -B "$folder/build/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-    -DCMAKE_C_FLAGS="${web_flags[*]} -w" -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_FIND_ROOT_PATH="$folder" \
+library_by_cmake() { # SOURCE OPTION...
+  "${configure[@]}" -S "$folder/source/$1" -B "$folder/build/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_C_FLAGS="${flags[*]} -w" -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_FIND_ROOT_PATH="$folder" \
     -DBUILD_SHARED_LIBS=OFF "${@:2}" >"$folder/build/$1.log" || { cat "$folder/build/$1.log" >&2; exit 1; }
 }
-# Sizes that cmake cannot find out of WebAssembly.
-configure libjpeg-turbo -DHAVE_SIZE_T=TRUE -DSIZE_T=4 -DHAVE_UNSIGNED_LONG=TRUE -DUNSIGNED_LONG=4 \
-  -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF
+library_by_cmake libjpeg-turbo -DENABLE_SHARED=OFF -DWITH_SIMD=OFF -DWITH_TURBOJPEG=OFF
 ninja -C "$folder/build/libjpeg-turbo" jpeg-static
 headers libjpeg-turbo/jpeglib.h libjpeg-turbo/jmorecfg.h libjpeg-turbo/jerror.h "$folder/build/libjpeg-turbo/jconfig.h"
 cp "$folder/build/libjpeg-turbo/libjpeg.a" "$folder/lib/"
-configure tiff -DHAVE_SIZEOF_SIZE_T=TRUE -DSIZEOF_SIZE_T=4 \
+library_by_cmake tiff -DCMath_HAVE_LIBC_POW=TRUE \
   -Dtiff-tools=OFF -Dtiff-tests=OFF -Dtiff-contrib=OFF -Dtiff-docs=OFF -Dcxx=OFF -Djbig=OFF \
   -Dlerc=OFF -Dlzma=OFF -Dwebp=OFF -Dlibdeflate=OFF
 ninja -C "$folder/build/tiff" tiff

@@ -1,0 +1,24 @@
+// Functions whose last bits the C library here has otherwise than that of Debian's programs: rounded from twice the
+// digits, which that is but for one value in a thousand.
+
+#include <cmath>
+
+extern "C"
+{
+#define VOXELCORE_ROUNDED(name)             \
+  double name(double x)                     \
+  {                                         \
+    return static_cast<double>(name##l(x)); \
+  }
+  VOXELCORE_ROUNDED(sin)
+  VOXELCORE_ROUNDED(cos)
+  VOXELCORE_ROUNDED(tan)
+  VOXELCORE_ROUNDED(asin)
+  VOXELCORE_ROUNDED(acos)
+#undef VOXELCORE_ROUNDED
+  double
+  atan2(double y, double x)
+  {
+    return static_cast<double>(atan2l(y, x));
+  }
+}

@@ -1,0 +1,86 @@
+#include "voxelcore/Jobs/SystemFiles.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace voxelcore
+{
+
+namespace fs = std::filesystem;
+
+bool
+MayWriteInto(const fs::path & folder)
+{
+  return access(folder.c_str(), R_OK | W_OK | X_OK) == 0;
+}
+
+std::time_t
+LastChanged(const fs::path & path)
+{
+  struct stat status = {};
+  return stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
+}
+
+LockedFile::LockedFile(const fs::path & path, bool create)
+{
+  const int descriptor =
+    open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (create ? O_CREAT : 0), 0666);
+  if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+  {
+    const int reason = errno;
+    close(descriptor);
+    errno = reason;
+    return;
+  }
+  m_Handle = descriptor;
+}
+
+LockedFile::LockedFile(LockedFile && other) noexcept
+  : m_Handle(std::exchange(other.m_Handle, -1))
+{}
+
+LockedFile &
+LockedFile::operator=(LockedFile && other) noexcept
+{
+  std::swap(m_Handle, other.m_Handle);
+  return *this;
+}
+
+LockedFile::~LockedFile()
+{
+  if (IsOpen())
+  {
+    close(Descriptor());
+  }
+}
+
+bool
+LockedFile::Is(const fs::path & path) const
+{
+  struct stat held = {};
+  struct stat named = {};
+  return fstat(Descriptor(), &held) == 0 && stat(path.c_str(), &named) == 0 && held.st_ino == named.st_ino &&
+         held.st_dev == named.st_dev;
+}
+
+bool
+LockedFile::Append(std::string_view text)
+{
+  while (!text.empty())
+  {
+    // A network folder, or a signal, may take a part of it.
+    const ssize_t written = write(Descriptor(), text.data(), text.size());
+    if (written < 0 && errno != EINTR)
+    {
+      return false;
+    }
+    text.remove_prefix(written > 0 ? static_cast<std::size_t>(written) : 0);
+  }
+  return true;
+}
+
+} // namespace voxelcore
