@@ -167,7 +167,7 @@ extern "C"
   // By this std::filesystem makes a name of bytes, which it takes for those of the system's old code pages. Of four
   // bytes come two units: with the first three the first, with the last the other, which waits in `state`.
   std::size_t
-  mbrtowc(wchar_t * unit, const char * bytes, std::size_t count, std::mbstate_t * state)
+  __wrap_mbrtowc(wchar_t * unit, const char * bytes, std::size_t count, std::mbstate_t * state)
   {
     static thread_local std::mbstate_t own;
     std::mbstate_t &                   waiting = state != nullptr ? *state : own;

@@ -61,7 +61,7 @@ cp libpng1.6/scripts/pnglibconf.h.prebuilt "$folder/include/pnglibconf.h"
 library z zlib "-DHAVE_UNISTD_H" adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c \
   uncompr.c zutil.c
 library bz2 bzip2 "" blocksort.c bzlib.c compress.c crctable.c decompress.c huffman.c randtable.c
-library png libpng1.6 "$include" png.c pngerror.c pngget.c pngmem.c pngpread.c pngread.c pngrio.c pngrtran.c \
+library png libpng1.6 "$include -DPNG_ARM_NEON_OPT=0" png.c pngerror.c pngget.c pngmem.c pngpread.c pngread.c pngrio.c pngrtran.c \
   pngrutil.c pngset.c pngtrans.c pngwio.c pngwrite.c pngwtran.c pngwutil.c
 # shellcheck disable=SC2046 # names of files
 library zstd libzstd "-DZSTD_DISABLE_ASM" $(cd libzstd && ls lib/common/*.c lib/compress/*.c lib/decompress/*.c)
@@ -71,7 +71,12 @@ cat >"$folder/source/c-blosc/blosc/config.h" <<'CONFIG'
 #define HAVE_ZLIB 1
 #define HAVE_ZSTD 1
 CONFIG
-library blosc c-blosc "$include -I../lz4/lib" blosc/blosc.c blosc/blosclz.c blosc/fastcopy.c blosc/shuffle.c \
+blosc_names=
+if [ "$system" = windows-x86_64 ]; then # it brings threads along, by names that the compiler's own have
+  blosc_names=$(printf ' -Dpthread_%s=blosc_pthread_%s' create create join join cond_init cond_init \
+    cond_destroy cond_destroy cond_signal cond_signal cond_broadcast cond_broadcast cond_wait cond_wait)
+fi
+library blosc c-blosc "$include -I../lz4/lib$blosc_names" blosc/blosc.c blosc/blosclz.c blosc/fastcopy.c blosc/shuffle.c \
   blosc/shuffle-generic.c blosc/bitshuffle-generic.c
 printf '#define %s\n' XML_DEV_URANDOM "XML_DTD 1" "XML_NS 1" "XML_CONTEXT_BYTES 1024" "BYTEORDER 1234" \
   >expat/expat/lib/expat_config.h

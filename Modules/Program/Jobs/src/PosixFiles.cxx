@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <fcntl.h>
+#include <glob.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,6 +24,19 @@ LastChanged(const fs::path & path)
 {
   struct stat status = {};
   return stat(path.c_str(), &status) == 0 ? status.st_mtime : 0;
+}
+
+std::vector<std::string>
+MatchesOf(const fs::path & pattern)
+{
+  glob_t                   matches{};
+  std::vector<std::string> paths;
+  if (glob(pattern.c_str(), 0, nullptr, &matches) == 0)
+  {
+    paths.assign(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
+  }
+  globfree(&matches);
+  return paths;
 }
 
 LockedFile::LockedFile(const fs::path & path, bool create)

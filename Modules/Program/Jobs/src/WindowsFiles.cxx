@@ -2,6 +2,7 @@
 
 #include "voxelcore/Base/WindowsHandle.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <utility>
@@ -44,6 +45,24 @@ LastChanged(const fs::path & path)
                : std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(time))
                    .time_since_epoch()
                    .count();
+}
+
+std::vector<std::string>
+MatchesOf(const fs::path & pattern)
+{
+  std::vector<std::string> paths;
+  WIN32_FIND_DATAW         found{};
+  const HANDLE             search = FindFirstFileW(pattern.c_str(), &found);
+  if (search != INVALID_HANDLE_VALUE)
+  {
+    do
+    {
+      paths.push_back((pattern.parent_path() / found.cFileName).string());
+    } while (FindNextFileW(search, &found));
+    FindClose(search);
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
 }
 
 LockedFile::LockedFile(const fs::path & path, bool create)

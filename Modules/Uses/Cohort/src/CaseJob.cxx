@@ -70,7 +70,7 @@ CommandLineOf(const CaseJob & job, CommandId command, bool bids)
 void
 Understand(CaseJob & job, ParameterValues given, CommandId command)
 {
-  given["output"] = job.folder / "result.vtp"; // stands for what CommandLineOf() gives
+  given["output"] = (job.folder / "result.vtp").string(); // stands for what CommandLineOf() gives
   try
   {
     if (command == CommandId::Roots)

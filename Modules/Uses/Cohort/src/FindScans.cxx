@@ -6,10 +6,10 @@
 #include "voxelcore/Formats/FormatOpeners.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/Jobs/OutputNames.h"
+#include "voxelcore/Jobs/SystemFiles.h"
 
 #include <algorithm>
 #include <array>
-#include <glob.h>
 #include <iterator>
 #include <map>
 #include <set>
@@ -163,19 +163,6 @@ Walk(const fs::path &           folder,
   {
     scans.push_back(folder.string());
   }
-}
-
-std::vector<std::string>
-MatchesOf(const fs::path & pattern)
-{
-  glob_t                   matches{};
-  std::vector<std::string> paths;
-  if (glob(pattern.c_str(), 0, nullptr, &matches) == 0)
-  {
-    paths.assign(matches.gl_pathv, matches.gl_pathv + matches.gl_pathc);
-  }
-  globfree(&matches);
-  return paths;
 }
 
 /** Below a folder the folders between belong to the name: "site-2/seg". */

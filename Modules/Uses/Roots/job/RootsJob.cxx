@@ -16,8 +16,9 @@
 #include "voxelcore/Jobs/SystemFiles.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
-#include <ctime>
+#include <cstdio>
 #include <utility>
 
 namespace voxelcore
@@ -76,11 +77,20 @@ CoreOptionsOf(const RootsOptions & options)
 std::string
 ModificationTime(const fs::path & path)
 {
-  const std::time_t seconds = LastChanged(path);
-  std::tm           parts{};
-  gmtime_r(&seconds, &parts);
-  char text[32];
-  (void)std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%S", &parts);
+  const std::chrono::sys_seconds    time{ std::chrono::seconds(LastChanged(path)) };
+  const auto                        day = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss       clock(time - day);
+  char                              text[64];
+  (void)std::snprintf(text,
+                      sizeof(text),
+                      "%04d-%02u-%02uT%02d:%02d:%02d",
+                      static_cast<int>(date.year()),
+                      static_cast<unsigned>(date.month()),
+                      static_cast<unsigned>(date.day()),
+                      static_cast<int>(clock.hours().count()),
+                      static_cast<int>(clock.minutes().count()),
+                      static_cast<int>(clock.seconds().count()));
   return text;
 }
 

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <ctime>
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace voxelcore
 {
@@ -16,6 +18,10 @@ MayWriteInto(const std::filesystem::path & folder);
 /** When a file was last changed; 0 where nobody knows. */
 std::time_t
 LastChanged(const std::filesystem::path & path);
+
+/** The files whose names match a pattern of * and ?, in order; on Windows these stand in the last part alone. */
+std::vector<std::string>
+MatchesOf(const std::filesystem::path & pattern);
 
 /** A file that one process at a time has open in this way. The lock dies with the last process that holds it, however
  *  that ends. */
