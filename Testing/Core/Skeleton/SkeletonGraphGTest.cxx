@@ -259,6 +259,57 @@ TEST(SkeletonGraph, ShortBranchesArePrunedShortestFirst)
   EXPECT_NEAR(table.numbers.totalLength, 30 + 20 + 40, 1e-9);
 }
 
+TEST(SkeletonGraph, MarkedEndsGoAndNothingElse)
+{
+  constexpr std::uint64_t firstSeed = 20261130;
+  std::cout << "seeds from " << firstSeed << '\n';
+  std::size_t gone = 0;
+  for (std::uint64_t seed = firstSeed; seed < firstSeed + 500; ++seed)
+  {
+    RandomLines   made(seed);
+    SkeletonGraph graph = made.graph;
+    SortBranches(graph, made.lines, true);
+    const SkeletonGraph       before = graph;
+    const SkeletonNumbers     numbers = MeasureBranches(graph).numbers;
+    std::vector<std::uint8_t> marked;
+    std::set<Vector3>         unmarked; // places on branches that stay whatever happens
+    double                    length = 0;
+    for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+    {
+      marked.push_back(made.random.Chance(0.6) ? 1 : 0);
+      length += marked.back() == 0 ? graph.BranchLength(branch) : 0;
+      for (const ElementIndex point : graph.Branch(branch))
+      {
+        if (marked.back() == 0)
+        {
+          unmarked.insert(graph.positions[point]);
+        }
+      }
+    }
+    const std::size_t count = PruneMarked(graph, marked);
+    gone += count;
+    ASSERT_LE(count, static_cast<std::size_t>(std::count(marked.begin(), marked.end(), 1))) << "seed " << seed;
+    ASSERT_GE(TotalLength(graph), length - 1e-12) << "seed " << seed;
+    const std::set<Vector3> left(graph.positions.begin(), graph.positions.end());
+    ASSERT_TRUE(std::includes(left.begin(), left.end(), unmarked.begin(), unmarked.end())) << "seed " << seed;
+    const SkeletonNumbers now = MeasureBranches(graph).numbers;
+    ASSERT_EQ(now.components, numbers.components) << "seed " << seed;
+    ASSERT_EQ(now.cycles, numbers.cycles) << "seed " << seed;
+    if (count == 0)
+    {
+      ASSERT_EQ(graph.branchPoints, before.branchPoints) << "seed " << seed;
+      for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+      {
+        const auto isTip = [&](std::size_t end) {
+          return graph.nodeKinds[graph.branchNodes[branch][end]] == NodeKind::Tip;
+        };
+        ASSERT_FALSE(marked[branch] != 0 && isTip(0) != isTip(1)) << "seed " << seed;
+      }
+    }
+  }
+  EXPECT_GT(gone, 100U);
+}
+
 TEST(SkeletonGraph, BranchesSplitAtJunctionsShareNoPoint)
 {
   SkeletonGraph graph = SmallRoot().Graph();

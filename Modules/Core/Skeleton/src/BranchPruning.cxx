@@ -174,36 +174,15 @@ private:
   void
   Apply()
   {
-    std::vector<std::uint8_t> keep(m_Graph.positions.size(), 1);
-    for (const ElementIndex point : m_Graph.branchPoints)
-    {
-      keep[point] = 0;
-    }
-    std::vector<ElementIndex> stay;
+    std::vector<std::uint8_t> stays(m_Graph.BranchCount(), 0);
     for (ElementIndex line = 0; line < m_Lines.size(); ++line)
     {
-      if (m_Lines[line].isThere)
+      for (const ElementIndex branch : m_Parts[line])
       {
-        stay.insert(stay.end(), m_Parts[line].begin(), m_Parts[line].end());
+        stays[branch] = m_Lines[line].isThere ? 1 : stays[branch];
       }
     }
-    std::sort(stay.begin(), stay.end());
-    GraphLines lines;
-    for (const ElementIndex branch : stay)
-    {
-      const auto points = m_Graph.Branch(branch);
-      lines.emplace_back(points.begin(), points.end());
-      for (const ElementIndex point : points)
-      {
-        keep[point] = 1;
-      }
-    }
-    for (const ElementIndex point : m_Graph.faceVertices)
-    {
-      keep[point] = 1;
-    }
-    KeepPoints(m_Graph, lines, keep);
-    SortBranches(m_Graph, lines, true);
+    KeepBranches(m_Graph, stays);
   }
 
   SkeletonGraph &                        m_Graph;

@@ -75,6 +75,48 @@ CutLoops(SkeletonGraph & graph)
   return cuts;
 }
 
+std::size_t
+PruneMarked(SkeletonGraph & graph, const std::vector<std::uint8_t> & marked)
+{
+  std::vector<std::vector<std::size_t>> branchesAt(graph.nodePoints.size());
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    for (const ElementIndex node : graph.branchNodes[branch])
+    {
+      branchesAt[node].push_back(branch);
+    }
+  }
+  const auto isTip = [&](ElementIndex node) {
+    const NodeKind kind = graph.nodeKinds[node];
+    return branchesAt[node].size() == 1 && (kind == NodeKind::Tip || kind == NodeKind::Junction);
+  };
+  std::vector<std::uint8_t> isThere(graph.BranchCount(), 1);
+  std::vector<std::size_t>  waiting(graph.BranchCount());
+  std::iota(waiting.begin(), waiting.end(), std::size_t{ 0 });
+  std::size_t count = 0;
+  while (!waiting.empty())
+  {
+    const std::size_t branch = waiting.back();
+    waiting.pop_back();
+    const auto & nodes = graph.branchNodes[branch];
+    if (isThere[branch] == 0 || marked[branch] == 0 || isTip(nodes[0]) == isTip(nodes[1]))
+    {
+      continue;
+    }
+    isThere[branch] = 0;
+    ++count;
+    auto & rest = branchesAt[nodes[isTip(nodes[0]) ? 1 : 0]];
+    rest.erase(std::find(rest.begin(), rest.end(), branch));
+    waiting.insert(waiting.end(), rest.begin(), rest.end());
+  }
+  if (count == 0)
+  {
+    return 0;
+  }
+  KeepBranches(graph, isThere);
+  return count;
+}
+
 void
 SplitAtJunctions(SkeletonGraph & graph)
 {

@@ -41,6 +41,36 @@ CopyPoint(SkeletonGraph & graph, ElementIndex point)
 }
 
 void
+KeepBranches(SkeletonGraph & graph, const std::vector<std::uint8_t> & stays)
+{
+  std::vector<std::uint8_t> keep(graph.positions.size(), 1);
+  for (const ElementIndex point : graph.branchPoints)
+  {
+    keep[point] = 0;
+  }
+  GraphLines lines;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    if (stays[branch] == 0)
+    {
+      continue;
+    }
+    const auto points = graph.Branch(branch);
+    lines.emplace_back(points.begin(), points.end());
+    for (const ElementIndex point : points)
+    {
+      keep[point] = 1;
+    }
+  }
+  for (const ElementIndex point : graph.faceVertices)
+  {
+    keep[point] = 1;
+  }
+  KeepPoints(graph, lines, keep);
+  SortBranches(graph, lines, true);
+}
+
+void
 KeepPoints(SkeletonGraph & graph, GraphLines & lines, const std::vector<std::uint8_t> & keep)
 {
   std::vector<ElementIndex> number(keep.size(), 0);

@@ -18,6 +18,10 @@ LinesOf(const SkeletonGraph & graph);
 ElementIndex
 CopyPoint(SkeletonGraph & graph, ElementIndex point);
 
+/** Keeps the branches with a flag, and all faces and isolated points; what then meets in twos is joined. */
+void
+KeepBranches(SkeletonGraph & graph, const std::vector<std::uint8_t> & stays);
+
 /** Keeps the points with a flag, in their order. */
 void
 KeepPoints(SkeletonGraph & graph, GraphLines & lines, const std::vector<std::uint8_t> & keep);

@@ -57,6 +57,19 @@ struct SkeletonNetwork
   }
 };
 
+/** Of a branch in a map of probabilities: the unbroken row of thresholds at which it is there. */
+struct BranchLife
+{
+  double lowest = 0;
+  double highest = 0;
+
+  double
+  Persistence() const
+  {
+    return highest - lowest;
+  }
+};
+
 /** The skeleton of one label, or of one component of it; positions in LPS mm. */
 struct MeasuredSkeleton
 {
@@ -67,6 +80,7 @@ struct MeasuredSkeleton
   BranchTable   table; ///< of this graph
 
   std::optional<SkeletonNetwork> network{}; ///< of several labels; `label` is then that of their union
+  std::vector<BranchLife>        lives{};   ///< of a map of probabilities, per branch; else empty
 };
 
 /** The part of a network that is of each of its labels, in their order, measured by itself: nodes where it meets others

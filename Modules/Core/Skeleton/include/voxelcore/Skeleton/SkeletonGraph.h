@@ -147,6 +147,11 @@ PruneCutEnds(SkeletonGraph & graph, const std::vector<LoopCut> & cuts, double st
 std::size_t
 PruneBulges(SkeletonGraph & graph, const std::vector<double> & roughness, double ratio);
 
+/** Takes off branches that are marked with a 1 and have a tip, until none is left; what then meets in twos is joined. A
+ *  branch between two tips stays: no component vanishes. Gives their number. */
+std::size_t
+PruneMarked(SkeletonGraph & graph, const std::vector<std::uint8_t> & marked);
+
 /** Gives each branch end points of its own: branches no longer hang together. */
 void
 SplitAtJunctions(SkeletonGraph & graph);
