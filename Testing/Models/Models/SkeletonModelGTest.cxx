@@ -106,6 +106,43 @@ TEST(SkeletonModel, AVtpIsReadAsItWasWritten)
 }
 
 // Before, the array Radius was that of the balls, beside SectionRadius.
+TEST(SkeletonModel, LivesOfBranchesComeBackAndStandInTheTable)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model = Mixed();
+  EXPECT_FALSE(HasLives(model));
+  EXPECT_TRUE(PointConfidence(model.parts[0]).empty());
+  model.parts[0].lives = { { 0.1, 0.4 }, { 0.3, 0.9 } };
+  model.parts[1].lives = { { 0.2, 0.2 } };
+  ASSERT_EQ(model.parts[0].graph.BranchCount(), 2U);
+  ASSERT_EQ(model.parts[1].graph.BranchCount(), 1U);
+  WriteSkeletonVtp(folder / "a.vtp", model);
+  const SkeletonModel read = ReadSkeletonVtp(folder / "a.vtp");
+  for (std::size_t part = 0; part < 2; ++part)
+  {
+    ASSERT_EQ(read.parts[part].lives.size(), model.parts[part].lives.size());
+    for (std::size_t branch = 0; branch < model.parts[part].lives.size(); ++branch)
+    {
+      EXPECT_EQ(read.parts[part].lives[branch].lowest, model.parts[part].lives[branch].lowest);
+      EXPECT_EQ(read.parts[part].lives[branch].highest, model.parts[part].lives[branch].highest);
+    }
+  }
+  const auto confidence = PointConfidence(model.parts[0]);
+  EXPECT_EQ(confidence[0], 0.4);
+  EXPECT_EQ(confidence[2], 0.9); // both meet here
+  EXPECT_EQ(confidence[6], 0);   // a point by itself
+  WriteBranchCsv(folder / "a.csv", model);
+  const std::string table = ReadAll(folder / "a.csv");
+  EXPECT_NE(table.find(",lowest_threshold,highest_threshold,persistence\n"), std::string::npos);
+  EXPECT_NE(table.find(",0.3,0.9,0.6\n"), std::string::npos);
+  const Json columns = Json::parse(SkeletonColumnsJson(model.unit, false, true));
+  EXPECT_TRUE(columns.at("branches").contains("persistence"));
+  EXPECT_FALSE(Json::parse(SkeletonColumnsJson(model.unit)).at("branches").contains("persistence"));
+  model.parts[1].lives = { { 0.2, 1.5 } };
+  WriteSkeletonVtp(folder / "b.vtp", model);
+  EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError);
+}
+
 TEST(SkeletonModel, RadiiOfOlderFilesAreTakenAsTheyWereMeant)
 {
   const TemporaryFolder folder;

@@ -23,6 +23,8 @@ QuantityOf(PictureColoring coloring)
       return "Erosion thickness";
     case PictureColoring::Thickness:
       return "Thickness";
+    case PictureColoring::Confidence:
+      return "Confidence";
     default:
       return "Radius";
   }
@@ -92,8 +94,10 @@ DescribeColorBar(const PictureOptions & options, const ColorRange & range, bool 
     bar.ticks = { { 0, Percent(options.shares.low) + " %" }, { 1, Percent(options.shares.high) + " %" } };
     return bar;
   }
-  const LengthUnit unit = LengthUnit::For(std::max(std::abs(range.low), std::abs(range.high)), lengths);
-  bar.title = quantity + " (" + unit.Symbol() + ")";
+  const bool       isLength = options.coloring != PictureColoring::Confidence;
+  const LengthUnit unit = isLength ? LengthUnit::For(std::max(std::abs(range.low), std::abs(range.high)), lengths)
+                                   : LengthUnit::For(1, SpatialUnit::Voxels); // numbers as they are
+  bar.title = quantity + (isLength ? " (" + unit.Symbol() + ")" : "");
   bar.below = range.least < range.low;
   bar.above = range.greatest > range.high;
   if (!options.range && (bar.below || bar.above))

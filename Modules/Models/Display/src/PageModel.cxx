@@ -28,15 +28,16 @@ namespace
 using Json = nlohmann::ordered_json;
 
 constexpr int                         kMapColors = 65; // enough for the page to go straight between them
-constexpr std::array<const char *, 4> kArrays{ "Radius", "Lambda", "ErosionThickness", "Thickness" };
+constexpr std::array<const char *, 5> kArrays{ "Radius", "Lambda", "ErosionThickness", "Thickness", "Confidence" };
 
-constexpr std::array<PictureColoring, 4> kColorings{ PictureColoring::Radius,
+constexpr std::array<PictureColoring, 5> kColorings{ PictureColoring::Radius,
                                                      PictureColoring::Lambda,
                                                      PictureColoring::ErosionThickness,
-                                                     PictureColoring::Thickness };
+                                                     PictureColoring::Thickness,
+                                                     PictureColoring::Confidence };
 
 /** In the order of kArrays; null where there is none. */
-using ValueArrays = std::array<const std::vector<double> *, 4>;
+using ValueArrays = std::array<const std::vector<double> *, 5>;
 
 ValueArrays
 MedialArrays(const DisplayLabel & label)
@@ -44,13 +45,18 @@ MedialArrays(const DisplayLabel & label)
   return { &label.medial.core.radius,
            &label.medial.core.vertexLambda,
            label.erosionThickness.empty() ? nullptr : &label.erosionThickness,
-           label.medial.thickness.empty() ? nullptr : &label.medial.thickness };
+           label.medial.thickness.empty() ? nullptr : &label.medial.thickness,
+           nullptr };
 }
 
 ValueArrays
 CurveArrays(const DisplayLabel & label)
 {
-  return { &SectionRadii(label.curves), nullptr, &label.curves.erosionThickness, nullptr };
+  return { &SectionRadii(label.curves),
+           nullptr,
+           &label.curves.erosionThickness,
+           nullptr,
+           label.confidence.empty() ? nullptr : &label.confidence };
 }
 
 /** Takes all values into `range`'s least and greatest, those too which no colour goes by as they are of points: the

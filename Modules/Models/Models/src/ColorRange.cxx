@@ -108,8 +108,11 @@ AppendCurves(const DisplayLabel & label, PictureColoring coloring, std::vector<W
 const std::vector<double> &
 MedialValues(const DisplayLabel & label, PictureColoring coloring)
 {
+  static const std::vector<double> none;
   switch (coloring)
   {
+    case PictureColoring::Confidence:
+      return none;
     case PictureColoring::Lambda:
       return label.medial.core.vertexLambda;
     case PictureColoring::ErosionThickness:
@@ -127,6 +130,8 @@ CurveValues(const DisplayLabel & label, PictureColoring coloring)
   static const std::vector<double> none;
   switch (coloring)
   {
+    case PictureColoring::Confidence:
+      return label.confidence;
     case PictureColoring::Lambda:
     case PictureColoring::Thickness:
       return none;

@@ -36,6 +36,32 @@ CellsOf(const VtpCells & cells, std::size_t pointCount)
   return lists;
 }
 
+/** Lives came line by line, and branches may stand in another order, turned round: each is the line that has its first
+ *  piece. */
+void
+PutLivesInOrder(SkeletonPart & part, const std::vector<std::vector<ElementIndex>> & lines)
+{
+  if (part.lives.empty())
+  {
+    return;
+  }
+  std::map<std::pair<ElementIndex, ElementIndex>, std::size_t> lineOf;
+  for (std::size_t line = 0; line < lines.size(); ++line)
+  {
+    for (std::size_t i = 1; i < lines[line].size(); ++i)
+    {
+      lineOf.try_emplace(std::minmax(lines[line][i - 1], lines[line][i]), line);
+    }
+  }
+  std::vector<BranchLife> lives;
+  for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
+  {
+    const auto points = part.graph.Branch(branch);
+    lives.push_back(part.lives[lineOf.at(std::minmax(points[0], points[1]))]);
+  }
+  part.lives = std::move(lives);
+}
+
 SkeletonModel
 ReadSkeleton(ModelSource & file)
 {
@@ -142,6 +168,15 @@ ReadSkeleton(ModelSource & file)
       graph.contact.push_back(contacts[point] != 0 ? 1 : 0);
     }
   }
+  std::vector<double> lowest;
+  std::vector<double> highest;
+  if (file.Has("CellData", "LowestThreshold") && file.Has("CellData", "HighestThreshold"))
+  {
+    lowest = file.Read<double>("CellData", "LowestThreshold");
+    highest = file.Read<double>("CellData", "HighestThreshold");
+    RequireFit(lowest.size() == labels.size() && highest.size() == labels.size(), "its arrays differ in length");
+    RequireFit(areLengths(lowest, 1) && areLengths(highest, 1), "a threshold of a branch is not within 0 and 1");
+  }
   std::vector<std::vector<std::vector<ElementIndex>>> branches(model.parts.size());
   forCells([&](const auto * list, const auto & points, std::size_t cell, std::size_t part) {
     std::vector<ElementIndex> own;
@@ -150,6 +185,10 @@ ReadSkeleton(ModelSource & file)
     if (list == &lines)
     {
       RequireFit(own.size() >= 2, "a line has a single point");
+      if (!lowest.empty())
+      {
+        model.parts[part].lives.push_back({ lowest[cell], highest[cell] });
+      }
       branches[part].push_back(std::move(own));
     }
     else if (list == &polys)
@@ -162,6 +201,7 @@ ReadSkeleton(ModelSource & file)
   for (std::size_t part = 0; part < model.parts.size(); ++part)
   {
     SortBranches(model.parts[part].graph, branches[part], false);
+    PutLivesInOrder(model.parts[part], branches[part]);
   }
   if (file.Has("FieldData", "Provenance"))
   {
@@ -171,6 +211,28 @@ ReadSkeleton(ModelSource & file)
 }
 
 } // namespace
+
+bool
+HasLives(const SkeletonModel & model)
+{
+  return std::any_of(model.parts.begin(), model.parts.end(), [](const SkeletonPart & part) {
+    return !part.lives.empty();
+  });
+}
+
+std::vector<double>
+PointConfidence(const SkeletonPart & part)
+{
+  std::vector<double> confidence(part.lives.empty() ? 0 : part.graph.positions.size(), 0);
+  for (std::size_t branch = 0; branch < part.lives.size(); ++branch)
+  {
+    for (const ElementIndex point : part.graph.Branch(branch))
+    {
+      confidence[point] = std::max(confidence[point], part.lives[branch].highest);
+    }
+  }
+  return confidence;
+}
 
 void
 WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model)
@@ -184,7 +246,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   struct CellData
   {
     std::vector<std::int64_t> branchId, label, component, closed, level, strahler;
-    std::vector<double>       length, tortuosity;
+    std::vector<double>       length, tortuosity, lowest, highest, persistence;
   };
   CellData   data[3];
   const auto add = [&](int                  kind,
@@ -212,6 +274,10 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
     to.strahler.push_back(branch ? branch->strahler : 0);
     to.length.push_back(branch ? branch->length : 0);
     to.tortuosity.push_back(branch ? branch->tortuosity : 0);
+    const BranchLife life = id >= 0 && !part.lives.empty() ? part.lives[static_cast<std::size_t>(id)] : BranchLife();
+    to.lowest.push_back(life.lowest);
+    to.highest.push_back(life.highest);
+    to.persistence.push_back(life.Persistence());
   };
   std::int64_t              firstPoint = 0;
   std::vector<std::int64_t> pointLabels;
@@ -285,6 +351,12 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   addCells("Strahler", &CellData::strahler);
   addCells("Length", &CellData::length);
   addCells("Tortuosity", &CellData::tortuosity);
+  if (HasLives(model))
+  {
+    addCells("LowestThreshold", &CellData::lowest);
+    addCells("HighestThreshold", &CellData::highest);
+    addCells("Persistence", &CellData::persistence);
+  }
   WriteVtp(path, std::move(content));
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace voxelcore
 {
@@ -50,6 +51,13 @@ constexpr auto kBranchColumns = std::to_array<Column>({
   { "coord_dst_x", "mm", "last point, LPS" },
   { "coord_dst_y", "mm", "" },
   { "coord_dst_z", "mm", "" },
+});
+
+// Of a map of probabilities, behind these.
+constexpr auto kLifeColumns = std::to_array<Column>({
+  { "lowest_threshold", "", "lowest threshold of the map of probabilities at which the branch is there" },
+  { "highest_threshold", "", "highest one, without a gap between them" },
+  { "persistence", "", "the difference" },
 });
 
 // AnalyzeSkeleton's names where it has the number.
@@ -145,8 +153,10 @@ CsvField(const std::string & given)
 void
 WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units)
 {
-  TextFile file(path, tableDigits);
-  file << HeadLine(kBranchColumns, units);
+  TextFile          file(path, tableDigits);
+  const bool        hasLives = HasLives(model);
+  const std::string head = HeadLine(kBranchColumns, units);
+  file << (hasLives ? head.substr(0, head.size() - 1) + "," + HeadLine(kLifeColumns, units) : head);
   for (const SkeletonPart & part : model.parts)
   {
     for (std::size_t branch = 0; branch < part.table.branches.size(); ++branch)
@@ -172,6 +182,11 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, 
         {
           file << "," << coordinate;
         }
+      }
+      if (hasLives)
+      {
+        const BranchLife & life = part.lives[branch];
+        file << "," << life.lowest << "," << life.highest << "," << life.Persistence();
       }
       file << "\n";
     }
@@ -275,9 +290,11 @@ WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model
 }
 
 std::string
-SkeletonColumnsJson(SpatialUnit unit, bool network)
+SkeletonColumnsJson(SpatialUnit unit, bool network, bool lives)
 {
-  std::vector<std::pair<const char *, std::string>> tables{ { "branches", ColumnsJson(kBranchColumns, unit) },
+  const std::span<const Column> further(kLifeColumns.data(), lives ? kLifeColumns.size() : 0);
+
+  std::vector<std::pair<const char *, std::string>> tables{ { "branches", ColumnsJson(kBranchColumns, unit, further) },
                                                             { "summary", ColumnsJson(kSummaryColumns, unit) } };
   if (network)
   {

@@ -273,8 +273,9 @@ DisplayFiles::State::AddSkeletons(const CoreReport &                            
       }
       SortBranches(graph, { line }, false);
       const std::string number = std::to_string(branch);
-      scene.curves.push_back(
-        { Text(part.name, " branch ", number), Text(name, "_branch-", number, ".mrk.json"), color });
+      scene.curves.push_back({ Text(part.name, " branch ", number),
+                               Text(name, "_branch-", number, ".mrk.json"),
+                               part.lives.empty() ? color : LengthColor(part.lives[branch].highest) });
       WriteMarkups(stage(scene.curves.back().file), one);
     }
   }
@@ -379,7 +380,8 @@ DisplayFiles::State::Content(const CoreReport & report, const ProgressCallback &
       label.name = part.name;
       label.color = ColorOf(part.label, part.component);
       label.medial = surfaces[i];
-      label.curves = skeletons[i].graph;
+      label.curves = part.graph;
+      label.confidence = PointConfidence(part);
       if (label.medial.core.cells.vertexCount > 0)
       {
         label.erosionThickness = VertexErosionThickness(label.medial.core, report.input.geometry.spacing, {});

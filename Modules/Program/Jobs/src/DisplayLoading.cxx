@@ -204,6 +204,7 @@ private:
       if (IsSkeleton(report))
       {
         RefuseSecond(label.curves.positions.empty(), path, record, "curve skeleton");
+        label.confidence = PointConfidence(skeletons.parts[i]);
         label.curves = std::move(skeletons.parts[i].graph);
         continue;
       }

@@ -32,6 +32,7 @@ PictureOptionsOf(const RenderJobOptions & options)
   picture.coloring = options.coloring == "Lambda"             ? PictureColoring::Lambda
                      : options.coloring == "ErosionThickness" ? PictureColoring::ErosionThickness
                      : options.coloring == "Thickness"        ? PictureColoring::Thickness
+                     : options.coloring == "Confidence"       ? PictureColoring::Confidence
                      : options.coloring == "Label"            ? PictureColoring::Label
                      : options.coloring == "SheetId"          ? PictureColoring::Label
                                                               : PictureColoring::Radius;
@@ -119,6 +120,17 @@ RunRenderJob(const RenderJobOptions & options, const JobContext & given)
       if (!label.curves.positions.empty())
       {
         throw UsageError("--color Thickness: curve skeletons have none; use Radius");
+      }
+    }
+  }
+  if (options.coloring == "Confidence")
+  {
+    for (const DisplayLabel & label : content.labels)
+    {
+      if (label.confidence.empty() || label.medial.core.cells.vertexCount > 0)
+      {
+        throw UsageError("--color Confidence: '" + label.name +
+                         "' has none; give skeletons alone, made with 'voxelcore skeleton --probability'");
       }
     }
   }

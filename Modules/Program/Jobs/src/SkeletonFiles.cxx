@@ -217,7 +217,7 @@ SkeletonFiles::Columns(SpatialUnit unit) const
     file = file.empty() ? text : JoinedTables(file, text);
   };
   const fs::path    tables = m_ToFolder ? SkeletonTablesPath(m_Output, m_Input) : m_Output;
-  const std::string ofSkeletons = SkeletonColumnsJson(unit, m_Targets.network);
+  const std::string ofSkeletons = SkeletonColumnsJson(unit, m_Targets.network, m_HasLives);
   if (Wants("csv"))
   {
     add(tables, ofSkeletons);
@@ -325,6 +325,7 @@ SkeletonFiles::Add(CoreReport &               report,
   const std::string text = LabelText(record.label, record.name);
   const fs::path    output = m_ToFolder ? FolderTarget(record.label, record.component) : m_Output;
   skeleton.output = output.string();
+  m_HasLives = m_HasLives || !part.lives.empty();
   for (const LoopCut & cut : skeleton.cuts)
   {
     notes.push_back(text + CutText(cut, report.input.geometry.unit));

@@ -192,6 +192,10 @@ MeasureAgain(std::vector<SkeletonPart> &   parts,
     const auto   inMm = [&](const Lambda & of) {
       return LambdaInMillimetres(of, report.parameters.weights, spacing, record.box);
     };
+    if (length || now.pruneRadii > 0 || now.cutLoops || now.splitAtJunctions)
+    {
+      part.lives.clear(); // they are those of other branches
+    }
     PruneBranches(part.graph, { length ? inMm(*length) : 0, now.pruneRadii });
     CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {}, std::move(record.skeleton->border) };
     CutAndMeasure(skeleton,

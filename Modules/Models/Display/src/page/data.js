@@ -54,23 +54,25 @@ const Page = (function () {
     return known.get(key);
   }
 
-  const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Thickness: 'Thickness', Label: model.groups || 'Label', Branch: 'Branch' };
+  const names = { Radius: 'Radius', Lambda: 'Lambda', ErosionThickness: 'Erosion thickness', Thickness: 'Thickness', Confidence: 'Confidence', Label: model.groups || 'Label', Branch: 'Branch' };
 
   // The unit in which people read lengths of about this one.
   function unitFor(length) {
     const size = Math.abs(length);
     return size > 0 ? model.units.find(unit => size >= unit.from) : model.units[0];
   }
+  // The same of an array's values, not all of which are lengths.
+  const unitOf = (name, value) => name === 'Confidence' ? { size: 1, name: '' } : unitFor(value);
   // 1, 2 or 5 times a power of ten, the largest that is not above `value`.
   function roundDown(value) {
     const power = Math.pow(10, Math.floor(Math.log10(value)));
     return [5, 2, 1].map(f => f * power).find(s => s <= value * (1 + 1e-9)) || power;
   }
   const digits = value => String(+value.toPrecision(6));
-  function lengthText(length, significant) {
-    const unit = unitFor(length);
-    return String(+(length / unit.size).toPrecision(significant || 4)) + ' ' + unit.name;
+  function valueText(value, unit, significant) {
+    return String(+(value / unit.size).toPrecision(significant || 4)) + (unit.name ? ' ' + unit.name : '');
   }
+  const lengthText = (length, significant) => valueText(length, unitFor(length), significant);
 
   // The colour map: `model.map` at equal steps.
   const map = model.map.map(code => [1, 3, 5].map(at => parseInt(code.substr(at, 2), 16)));
@@ -88,5 +90,5 @@ const Page = (function () {
     });
   }
 
-  return { $, model, numbers, places, valuesOf, names, unitFor, roundDown, digits, lengthText, mapColor, branchColor };
+  return { $, model, numbers, places, valuesOf, names, unitFor, unitOf, roundDown, digits, valueText, lengthText, mapColor, branchColor };
 })();

@@ -2,19 +2,19 @@
 /* global Page */
 if (Page) Page.overlay = (function () {
   'use strict';
-  const { model, names, unitFor, roundDown, digits, mapColor } = Page;
+  const { model, names, unitFor, unitOf, roundDown, digits, mapColor } = Page;
   const font = size => size + 'px system-ui, -apple-system, "Segoe UI", Roboto, Arial, sans-serif';
 
   function colorBar(pen, scene, ink, soft) {
     const { width, height, coloring } = scene, { name, low, high, note, below, above, own } = coloring;
     const long = Math.round(width < 640 ? Math.min(130, 0.2 * height) : Math.min(220, 0.32 * height)), x = width - 92, y = 58, wide = 14;
-    const unit = unitFor(Math.max(Math.abs(low), Math.abs(high)));
+    const unit = unitOf(name, Math.max(Math.abs(low), Math.abs(high)));
     pen.textAlign = 'left';
     pen.textBaseline = 'middle';
     pen.fillStyle = ink;
     pen.font = '600 ' + font(13);
     pen.textAlign = 'right';
-    pen.fillText(names[name] + (own ? '' : ' (' + unit.name + ')'), width - 14, 20);
+    pen.fillText(names[name] + (own || !unit.name ? '' : ' (' + unit.name + ')'), width - 14, 20);
     pen.font = font(11);
     pen.fillStyle = soft;
     pen.fillText(note, width - 14, 37);

@@ -2,7 +2,7 @@
 /* global THREE, Page */
 if (Page) Page.view = (function () {
   'use strict';
-  const { $, model, meshes, names, lengthText, mapColor, branchColor } = Page;
+  const { $, model, meshes, names, unitOf, valueText, mapColor, branchColor } = Page;
   const canvas = $('view'), stage = $('stage');
   let renderer;
   try {
@@ -20,7 +20,7 @@ if (Page) Page.view = (function () {
   const target = new THREE.Vector3(), size = meshes.size, away = 10 * size;
   meshes.build(scene);
   const parts = meshes.parts;
-  const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Thickness ? 'Thickness' : 'Radius', range: null, chosen: null,
+  const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Confidence ? 'Confidence' : model.ranges.Thickness ? 'Thickness' : 'Radius', range: null, chosen: null,
     opacity: { surface: 0.35, medial: 1, curves: 1 }, shown: { surface: true, medial: true, curves: true } };
 
   // ---- colours ----
@@ -292,7 +292,7 @@ if (Page) Page.view = (function () {
     if (branchAt) lines.push(label.curves.names[branchAt[nearest]]);
     for (const name of Object.keys(model.ranges)) {
       const values = kind === 'surface' ? null : valuesAt(name);
-      if (values && !Number.isNaN(values[nearest])) lines.push(names[name] + ' ' + lengthText(values[nearest]));
+      if (values && !Number.isNaN(values[nearest])) lines.push(names[name] + ' ' + valueText(values[nearest], unitOf(name, values[nearest])));
     }
     const shown = hit.point.toArray().map((v, k) => v + meshes.middle[k]), digits = Math.max(1, Math.ceil(2 - Math.log10(size)));
     const at = [0, 1, 2].map(k => model.axes.reduce((sum, a, i) => sum + a[k] * shown[i], 0));

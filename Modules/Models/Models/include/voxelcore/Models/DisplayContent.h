@@ -33,6 +33,7 @@ struct DisplayLabel
   ModelPart                medial;
   std::vector<double>      erosionThickness; ///< of the medial surface's vertices; empty when it is not known
   SkeletonGraph            curves;
+  std::vector<double>      confidence;       ///< of the curves' points: PointConfidence()
   bool                     hasRadius = true; ///< radii are known; else those of the medial surface are 0
   std::vector<std::string> curveNames;       ///< per branch of the curves; empty, or pages can colour by branch
 };

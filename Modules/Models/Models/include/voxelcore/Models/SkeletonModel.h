@@ -26,10 +26,19 @@ struct SkeletonModel
   std::string               rounded{};                       ///< as of MedialModel
 };
 
+/** Whether its branches have lives, as those of a map of probabilities. */
+bool
+HasLives(const SkeletonModel & model);
+
+/** Of a part whose branches have lives per point the highest threshold of those it is on; empty without lives. */
+std::vector<double>
+PointConfidence(const SkeletonPart & part);
+
 /** XML polydata: isolated points as verts, a poly line per branch, polygons of faces that stay. Point arrays Radius
  *  (SectionRadii()), BallRadius, MaximumInscribedSphereRadius (the same under VMTK's name), ErosionThickness; cell
  *  arrays BranchId (per part, from 0; -1 for verts and polygons), Label, Component, Closed (1 for faces of closed
- *  surfaces), and of branches Length, Tortuosity, Level, Strahler (0 elsewhere). Of a network Label is that of each
+ *  surfaces), and of branches Length, Tortuosity, Level, Strahler (0 elsewhere); where they have lives
+ *  LowestThreshold, HighestThreshold and Persistence, the difference. Of a network Label is that of each
  *  branch; there are the point arrays Label and Contact (1 where labels meet), too, and the field array LabelNames, a
  *  line "value name" a label. Equal models give equal bytes. \throws OutputError */
 void
@@ -78,7 +87,7 @@ void
 WritePrecomputedSkeletons(const std::function<std::filesystem::path(const std::string & name)> & place,
                           const SkeletonModel &                                                  model);
 
-/** Comma-separated values, a row per branch; columns as SkeletonColumns() says. \throws OutputError */
+/** Comma-separated values, a row per branch; columns as SkeletonColumnsJson() says. \throws OutputError */
 void
 WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units = {});
 
@@ -96,8 +105,9 @@ WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model
 std::string
 CsvField(const std::string & text);
 
-/** The data dictionary of the tables as JSON: meaning and unit of each column. `network`: with that of contacts. */
+/** The data dictionary of the tables as JSON: meaning and unit of each column. `network`: with that of contacts;
+ *  `lives`: with columns of lives. */
 std::string
-SkeletonColumnsJson(SpatialUnit unit, bool network = false);
+SkeletonColumnsJson(SpatialUnit unit, bool network = false, bool lives = false);
 
 } // namespace voxelcore

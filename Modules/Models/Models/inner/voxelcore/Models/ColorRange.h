@@ -15,6 +15,7 @@ enum class PictureColoring
   Lambda,
   ErosionThickness,
   Thickness,
+  Confidence,
   Label
 };
 

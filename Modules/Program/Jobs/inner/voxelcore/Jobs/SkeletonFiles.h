@@ -110,7 +110,8 @@ private:
   bool                     m_ToFolder;
   SkeletonTargets          m_Targets;
   OutputTransaction &      m_Transaction;
-  SkeletonModel            m_Model;     ///< not written yet
+  SkeletonModel            m_Model; ///< not written yet
+  bool                     m_HasLives = false;
   MedialModel              m_Surfaces;  ///< not written yet, for .ma
   SkeletonModel            m_AllLabels; ///< for tables of a folder
   std::vector<std::size_t> m_Labels;    ///< of m_Model, in the report
