@@ -166,6 +166,14 @@ PrintSkeleton(const Run & run, const SkeletonResult & result)
 int
 RunSkeleton(const Run & run)
 {
+  if (auto map = ProbabilityOptionsFrom(run.line.values))
+  {
+    map->making.threads = run.threads;
+    map->making.command = run.line.whole;
+    const ProbabilityResult result = RunProbabilityJob(*map, run.context);
+    run.Print(ThresholdsText(result));
+    return PrintSkeleton(run, result);
+  }
   SkeletonOptions options = SkeletonOptionsFrom(run.line.values);
   options.threads = run.threads;
   options.command = run.line.whole;

@@ -323,6 +323,10 @@ StageCoreJob(const CoreOptions & options,
           return;
         }
       }
+      if (scan != nullptr && scan->done)
+      {
+        scan->done(outcome);
+      }
       const std::size_t notesBefore = result.notes.size();
       if (network)
       {

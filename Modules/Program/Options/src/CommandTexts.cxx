@@ -132,13 +132,18 @@ With -o DIR/ each label of a scan is written as soon as it is done, and the same
 stopped. If a label fails its certificate, only the other labels are written, and the exit code is 4. --scene
 and --html write the folder all at once.
 
+--probability writes the tree of each threshold as OUT_threshold-0.3.vtp and so on, numbers as OUT_thresholds.csv,
+and as OUT.vtp that of the threshold that keeps most of what is stable, without unstable ends and pieces. Its
+arrays LowestThreshold, HighestThreshold and Persistence tell over which thresholds each branch lives.
+
 Examples:
   voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top
   voxelcore skeleton core.vtp -o skeleton.vtp --report skeleton.json
   voxelcore skeleton atlas.nii.gz -o skeletons/ --also csv
   voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
   voxelcore skeleton circle-of-willis.nii.gz --network --also csv -o network.vtp
-  voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp)";
+  voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp
+  voxelcore skeleton --probability softmax.nrrd --thresholds 0.3,0.5,0.7 -o sure.vtp)";
 
 constexpr std::string_view kRootsFooter =
   R"(OUTDIR gets roots.rsml, roots.swc, roots.graphml, roots.csv (a row per root), levels.csv, plant.csv, profile.csv,
@@ -207,6 +212,7 @@ Examples:
   voxelcore render medial.vtp --scan scan.nii.gz -o medial.png
   voxelcore render core.vtp skeleton.vtp --scan root.nrrd --panels --color ErosionThickness -o root.png
   voxelcore render atlas.vtp --labels 4,7 --color Label --view front --background dark -o labels.png
+  voxelcore render sure.vtp --color Confidence -o sure.png
   voxelcore render skeleton.vtp --turntable 36 -o turn.png)";
 
 constexpr std::string_view kBatchFooter =

@@ -294,6 +294,45 @@ SkeletonOptionsFrom(const ParameterValues & values)
   return options;
 }
 
+std::optional<ProbabilityOptions>
+ProbabilityOptionsFrom(const ParameterValues & values)
+{
+  const ParameterReader reader(values, CommandId::Skeleton);
+  if (!reader.IsSet("probability"))
+  {
+    for (const char * option : { "thresholds", "persistence" })
+    {
+      if (reader.IsGiven(option))
+      {
+        throw UsageError("--" + std::string(option) + ": needs --probability");
+      }
+    }
+    return std::nullopt;
+  }
+  for (const char * other : { "labels",
+                              "binary",
+                              "threshold",
+                              "network",
+                              "split-components",
+                              "split-at-junctions",
+                              "resolution",
+                              "sections" })
+  {
+    if (reader.IsGiven(other))
+    {
+      throw UsageError("--probability takes a map at --thresholds; leave out --" + std::string(other));
+    }
+  }
+  ProbabilityOptions options{ SkeletonOptionsFrom(values), ParseThresholds(reader.Text("thresholds")), 0 };
+  const auto         persistence = ParseReal(reader.Text("persistence"));
+  if (!persistence || !(*persistence >= 0 && *persistence <= 1))
+  {
+    reader.ThrowUsageError("persistence", "a number from 0 to 1");
+  }
+  options.persistence = *persistence;
+  return options;
+}
+
 BranchRequest
 MeasureBranchesFrom(const ParameterValues & values)
 {

@@ -25,6 +25,9 @@ struct ScanAtHand
 {
   InputScan    volume;
   EditedLabels edited;
+
+  /** Called with each label that is done, before anything of it is written. May be empty. */
+  std::function<void(LabelOutcome & outcome)> done{};
 };
 
 /** Called once with the labels that are worked on, before their shapes are used up. */

@@ -2,6 +2,7 @@
 // Every option of the program in one table: the parser, the help and descriptions for other programs come from it.
 
 #include "voxelcore/Compare/CompareJob.h"
+#include "voxelcore/Compare/ProbabilityJob.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/Jobs/BlockJob.h"
 #include "voxelcore/Jobs/CoreJob.h"
@@ -185,6 +186,9 @@ SkeletonTargets
 TargetsFrom(const ParameterValues & values, CommandId command);
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values);
+/** None unless --probability is given. */
+std::optional<ProbabilityOptions>
+ProbabilityOptionsFrom(const ParameterValues & values);
 /** How a finished core is burned; its lambda is 0. */
 SkeletonRequest
 SkeletonRequestFrom(const ParameterValues & values);
