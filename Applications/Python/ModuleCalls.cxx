@@ -8,6 +8,7 @@
 #include "voxelcore/Base/Progress.h"
 #include "voxelcore/Certified/CertifiedSkeleton.h"
 #include "voxelcore/Certified/CertifiedThickness.h"
+#include "voxelcore/Compare/ProbabilityJob.h"
 #include "voxelcore/Imaging/ScanRows.h"
 
 #include <pybind11/numpy.h>
@@ -432,6 +433,45 @@ ReadScanFile(const std::string & path)
   return found;
 }
 
+/** Of trees at rising thresholds, none where no voxel reaches one: lives and whether they are stable, per tree, and the
+ *  number of the threshold that keeps most of what is stable. */
+py::tuple
+LivesOfTrees(const std::vector<std::shared_ptr<SkeletonOfLabel>> & trees,
+             const std::vector<double> &                           thresholds,
+             double                                                persistence)
+{
+  TreesOfThresholds all{ thresholds, {} };
+  for (const auto & tree : trees)
+  {
+    all.trees.push_back(tree != nullptr ? tree->part.graph : SkeletonGraph());
+  }
+  const auto lives = RunInOwnThread(0, py::none(), py::none(), [&](const ProgressCallback & progress) {
+    std::vector<std::vector<BranchLife>> found;
+    for (std::size_t i = 0; i < all.trees.size(); ++i)
+    {
+      found.push_back(LivesOf(all.trees[i], i, all, progress));
+      RequireLives(all.trees[i], i, all, found.back(), "the array");
+    }
+    return found;
+  });
+  py::list   ranges;
+  py::list   stable;
+  for (const auto & ofTree : lives)
+  {
+    py::array_t<double> array({ static_cast<py::ssize_t>(ofTree.size()), py::ssize_t{ 2 } });
+    for (std::size_t branch = 0; branch < ofTree.size(); ++branch)
+    {
+      array.mutable_at(static_cast<py::ssize_t>(branch), 0) = ofTree[branch].lowest;
+      array.mutable_at(static_cast<py::ssize_t>(branch), 1) = ofTree[branch].highest;
+    }
+    ranges.append(array);
+    const auto flags = StableOnes(ofTree, persistence);
+    stable.append(
+      py::array_t<std::uint8_t>(static_cast<py::ssize_t>(flags.size()), flags.data()).attr("astype")("bool"));
+  }
+  return py::make_tuple(ranges, stable, StablestThreshold(all, lives, persistence));
+}
+
 } // namespace
 
 void
@@ -452,4 +492,9 @@ voxelcore::DefineCalls(py::module_ & module)
   module.def("thickness", &ThicknessOfAnArray);
   module.def("sheets", &SheetsOfCore);
   module.def("compare", &CompareBoth);
+  module.def("thresholds", &ParseThresholds);
+  module.def("probability_scale", [](double least, double greatest, bool areWhole) {
+    return ProbabilityScale(least, greatest, areWhole, "the array");
+  });
+  module.def("lives", &LivesOfTrees);
 }

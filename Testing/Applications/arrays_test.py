@@ -18,6 +18,7 @@ phantom thick-and-thin --size 24 --spacing 1,1,1 -o body.nrrd
 core body.nrrd --split-components -o core.vtp --table table.csv
 core body.nrrd --tolerance 0 --keep-edges -o whole.vtp
 skeleton vessels.nrrd --network --sections 4vox --flow flow.csv --centerlines centerlines.vtp --also csv -o net.vtp
+skeleton plant.nrrd --probability --thresholds 0.3,0.5 --also csv -o sure.vtp
 straighten vessels.nrrd net.vtp --branch 0 -o tube.nrrd --table straight.csv --points points.csv --mapped mapped.csv
 roots plant.nrrd --no-pictures -o roots/
 thickness body.nrrd -o map.nrrd --table thickness.csv --surface surface.vtp --medial medial.vtp
@@ -27,8 +28,8 @@ batch body.nrrd -o cohort/
 """
 
 # Which files hold the arrays that the page names by kind.
-KINDS = {"medial": ["core.vtp", "whole.vtp", "medial.vtp"], "skeleton": ["net.vtp"], "sheets": ["sheets.vtp"],
-         "surface": ["surface.vtp"], "sections": ["net_sections.vtp"],
+KINDS = {"medial": ["core.vtp", "whole.vtp", "medial.vtp"], "skeleton": ["net.vtp", "sure.vtp"],
+         "sheets": ["sheets.vtp"], "surface": ["surface.vtp"], "sections": ["net_sections.vtp"],
          "centerlines": ["centerlines.vtp"]}  # fmt: skip
 
 # Tables by the headings of the page: the file, and where it is told what its columns mean.
@@ -56,7 +57,9 @@ TABLES = {
 OF_REPORTS = {"cohort/cases.csv": ("cohort/columns.json", "cases"),
               "cohort/labels.csv": ("cohort/columns.json", "labels")}
 # Told of by their columns file alone.
-PLAIN = {"table.csv": ("table_columns.json", "labels"), "study.csv": ("study_columns.json", "resolutions")}
+PLAIN = {"sure_branches.csv": ("sure_columns.json", "branches"), "sure_summary.csv": ("sure_columns.json", "summary"),
+         "sure_thresholds.csv": ("sure_thresholds_columns.json", "thresholds"),
+         "table.csv": ("table_columns.json", "labels"), "study.csv": ("study_columns.json", "resolutions")}
 # Written by this test; copies of what other commands write.
 INPUTS = {"points.csv"}
 FIRST = ("label", "name", "part")  # told once for all tables

@@ -95,6 +95,7 @@ def write_inputs(program):
     Path("aorta.swc").rename("traced.swc")
     for name in ("truth.nii.gz", "network.nii.gz"):
         shutil.copy("scan.nii.gz", name)
+    shutil.copy("root.nrrd", "softmax.nrrd")  # a map that is sure of each voxel
     Path("scans").mkdir()
     shutil.copy("scan.nii.gz", "scans")
     Path("cohort.csv").write_text("id,scan,lambda\na,scan.nii.gz,1vox\nb,bone.nrrd,\n")

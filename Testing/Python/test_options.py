@@ -34,6 +34,7 @@ WITHOUT = {
     **dict.fromkeys(("blocks", "block", "block-size", "join", "memory"), "parts of scans that do not fit into memory"),
     "with-skeleton": "Core.skeleton()",
     "quiet": "nothing is printed",
+    **dict.fromkeys(("probability", "thresholds", "persistence"), "probability() is a function of its own"),
     "units": "columns() gives units",
     "sections": "tables and contours that the program writes beside its skeleton",
     **dict.fromkeys(("branch-map", "order-map", "skeleton-map", "centerlines", "flow", "inlet", "soma"),

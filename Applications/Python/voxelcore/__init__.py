@@ -25,7 +25,19 @@ import os
 from . import _voxelcore
 from ._core import Core
 from ._making import core, prune, read, skeleton
-from ._measuring import Thickness, Verification, columns, compare, measure, precomputed, sheets, thickness, verify
+from ._measuring import (
+    Probability,
+    Thickness,
+    Verification,
+    columns,
+    compare,
+    measure,
+    precomputed,
+    probability,
+    sheets,
+    thickness,
+    verify,
+)
 from ._skeleton import Skeleton
 from ._volume import Volume
 from ._voxelcore import CertificateError, __version__
@@ -40,9 +52,11 @@ __all__ = [
     "thickness",
     "sheets",
     "compare",
+    "probability",
     "precomputed",
     "Core",
     "Skeleton",
+    "Probability",
     "Thickness",
     "Volume",
     "Verification",
@@ -52,8 +66,8 @@ __all__ = [
 ]
 
 # Where users find them, and what pickles name.
-for _thing in (core, skeleton, prune, verify, measure, read, thickness, sheets, compare, precomputed, columns, Core,
-               Skeleton, Thickness, Verification, Volume):  # fmt: skip
+for _thing in (core, skeleton, prune, verify, measure, read, thickness, sheets, compare, probability, precomputed,
+               columns, Core, Skeleton, Probability, Thickness, Verification, Volume):  # fmt: skip
     _thing.__module__ = __name__
 del _thing
 

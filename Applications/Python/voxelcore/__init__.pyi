@@ -296,6 +296,20 @@ def compare(
     progress: _Progress = ...,
     **options: Any,
 ) -> Dict[str, Any]: ...
+class Probability(NamedTuple):
+    trees: Dict[float, Optional[Skeleton]]
+    lives: Dict[float, NDArray[numpy.float64]]
+    stable: Dict[float, NDArray[numpy.bool_]]
+    threshold: float
+
+def probability(
+    array: Union[ArrayLike, _Image],
+    thresholds: Optional[Iterable[float]] = ...,
+    persistence: float = ...,
+    *,
+    progress: _Progress = ...,
+    **options: Any,
+) -> Probability: ...
 def read(path: Union[str, PathLike[str]]) -> Any: ...
 def precomputed(results: Any, folder: Union[str, PathLike[str]], *, overwrite: bool = ...) -> None: ...
 def columns(unit: str = ...) -> Dict[str, Dict[str, str]]: ...

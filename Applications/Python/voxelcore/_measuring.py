@@ -271,6 +271,72 @@ def compare(a, b, *, spacing=None, label=None, axes=None, threshold=None, progre
     }
 
 
+class Probability(typing.NamedTuple):
+    """What a map of probabilities holds: `trees`, a dict of Skeleton by threshold (None where no voxel reaches it);
+    `lives`, a dict by threshold of float64, shape (branches, 2): the lowest and the highest threshold at which each
+    branch is there; `stable`, a dict by threshold of bool, shape (branches,); `threshold`, that of the tree that keeps
+    most of what is stable."""
+
+    trees: dict
+    lives: dict
+    stable: dict
+    threshold: float
+
+
+def probability(array, thresholds=None, persistence=0.2, *, progress=None, **options):
+    """Skeletons of a map of probabilities over thresholds, and how long each branch lives, as 'voxelcore skeleton
+    --probability' finds them. The program also takes unstable ends and pieces off the tree that it chooses.
+
+    Parameters
+    ----------
+    array : array_like, shape (ni, nj, nk), or image
+        Probabilities from 0 to 1; whole numbers up to 255 stand for these where one is more than 1.
+    thresholds : iterable of float, optional
+        From above 0 to 1; None: 0.1 to 0.9 by 0.1.
+    persistence : float, default 0.2
+        Branches that live over at least so much are stable.
+    progress : callable, optional
+        As of core().
+    **options
+        As of skeleton(), but for label and threshold.
+
+    Returns
+    -------
+    Probability
+
+    Examples
+    --------
+    >>> tube = numpy.zeros((40, 9, 9), numpy.float32)
+    >>> tube[2:38, 2:7, 2:7] = 0.75
+    >>> found = probability(tube, [0.3, 0.5, 0.7, 0.9])
+    >>> found.threshold, found.lives[0.5].tolist(), found.trees[0.9]
+    (0.5, [[0.3, 0.7]], None)
+    """
+    for given in ("label", "threshold", "network", "split_components", "split_at_junctions"):
+        if given in options:
+            raise ValueError(f"{given}: does not go with a map of probabilities; leave it out")
+    if thresholds is None:
+        thresholds = [tenth / 10 for tenth in range(1, 10)]
+    text = ",".join(str(float(one)) for one in thresholds)
+    if not 0 <= float(persistence) <= 1:
+        raise ValueError(f"persistence={persistence}: expected a number from 0 to 1")
+    rising = _voxelcore.thresholds(text)
+    array = _volume.opened(array)
+    values = numpy.asarray(_arguments.voxels(array, options.get("spacing"), options.get("axes")).array)
+    scale = _voxelcore.probability_scale(
+        float(values.min()), float(values.max()), bool((values == numpy.floor(values)).all())
+    )
+    trees = dict.fromkeys(rising)
+    for number, one in enumerate(rising):
+        least = numpy.float32(one * scale)
+        if (values >= least).any():
+            share = _arguments.share(progress, number / len(rising), (number + 1) / len(rising))
+            trees[one] = skeleton(array, threshold=(float(least), numpy.inf), progress=share, **options)
+    made = [tree._data if tree is not None else None for tree in trees.values()]
+    lives, stable, chosen = _voxelcore.lives(made, rising, float(persistence))
+    return Probability(trees, dict(zip(rising, lives)), dict(zip(rising, stable)), rising[chosen])
+
+
 def precomputed(results, folder, *, overwrite=False):
     """Writes skeletons, or cores, into one folder for Neuroglancer, each under its label.
 
