@@ -14,7 +14,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -304,28 +303,6 @@ private:
   double     m_More;
 };
 
-/** One square of four, of planes and lines, too, and the same ones of every part of a body. */
-std::vector<std::uint32_t>
-SomeOf(const std::vector<FacingSquare> & squares)
-{
-  std::vector<std::uint32_t> some;
-  for (std::size_t i = 0; i < squares.size(); ++i)
-  {
-    const auto &  voxel = squares[i].voxel;
-    std::uint32_t mixed = 2 * squares[i].axis + (squares[i].way > 0 ? 1U : 0U);
-    for (const std::int32_t coordinate : voxel)
-    {
-      mixed = (mixed ^ static_cast<std::uint32_t>(coordinate)) * 0x9E3779B1U;
-      mixed ^= mixed >> 15U;
-    }
-    if (mixed % 4 == 0)
-    {
-      some.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  return some;
-}
-
 PaintingBalls
 KeptToLabels(PaintingBalls balls, const VoxelShape & shape, const SpacingWeights & weights)
 {
@@ -386,15 +363,11 @@ SmoothBalls(const VoxelShape &       shape,
   std::optional<LabelPlaces> labels(std::in_place, squares, sides);
   const VoxelRanks           ranks(shape);
   {
-    const std::vector<std::uint32_t> some = SomeOf(squares);
-    const std::vector<double>        first(some.size(), kFirstReach * voxel);
-    PaintingBalls                    balls;
-    if (SurfacePlaces places = labels->Find(some, first, plan.Next("thickness")); !places.empty())
-    {
-      balls = BallsAt(std::move(places), shape, sides, plan.Next("thickness"));
-    }
-    const VoxelOwners owners = OwnersAmong(balls, shape, weights, plan.Next("thickness"));
-    const VoxelValues map = ThicknessOfOwners(shape, weights, balls, owners);
+    const std::vector<double> first(squares.size(), kFirstReach * voxel);
+    SurfacePlaces             places = labels->Find(first, plan.Next("thickness"));
+    const PaintingBalls       balls = BallsAt(std::move(places), shape, sides, plan.Next("thickness"));
+    const VoxelOwners         owners = OwnersAmong(balls, shape, weights, plan.Next("thickness"));
+    const VoxelValues         map = ThicknessOfOwners(shape, weights, balls, owners);
     for (std::size_t i = 0; i < squares.size(); ++i)
     {
       const auto & voxelBehind = squares[i].voxel;
@@ -402,9 +375,7 @@ SmoothBalls(const VoxelShape &       shape,
       reaches[i] = voxel * std::clamp(kReachOfRadius * radius + kReachBeyond, kLeastReach, kMostReach);
     }
   }
-  std::vector<std::uint32_t> all(squares.size());
-  std::iota(all.begin(), all.end(), std::uint32_t{ 0 });
-  SurfacePlaces places = labels->Find(all, reaches, plan.Next("thickness"));
+  SurfacePlaces places = labels->Find(reaches, plan.Next("thickness"));
   labels.reset();
   return KeptToLabels(BallsAt(std::move(places), shape, sides, plan.Next("thickness")), shape, weights);
 }

@@ -372,18 +372,16 @@ struct LabelPlaces::Middles
 class LabelPlaces::Fitter
 {
 public:
-  Fitter(const Middles & middles, const std::vector<std::uint32_t> & which, const std::vector<double> & reaches)
+  Fitter(const Middles & middles, const std::vector<double> & reaches)
     : m_All(middles)
-    , m_Which(which)
     , m_Reaches(reaches)
   {}
 
   SurfacePlace
-  Find(std::size_t at)
+  Find(std::size_t square)
   {
-    const std::uint32_t square = m_Which[at];
-    const double        reach = m_Reaches[at];
-    FindAround(at, reach);
+    const double reach = m_Reaches[square];
+    FindAround(square, reach);
     const FacingSquare & own = m_All.squares[square];
     Vector3              normal{};
     for (std::size_t i = 0; i < m_Around.count; ++i)
@@ -437,11 +435,11 @@ private:
   {
     m_Row = row;
     double reach = 0;
-    for (std::size_t other = i; other < m_Which.size() && m_Which[other] < m_All.rowBegin[row + 1]; ++other)
+    for (std::size_t other = i; other < m_All.rowBegin[row + 1]; ++other)
     {
       reach = std::max(reach, m_Reaches[other]);
     }
-    const auto &                      voxel = m_All.squares[m_Which[i]].voxel;
+    const auto &                      voxel = m_All.squares[i].voxel;
     const std::array<std::int32_t, 2> wide{ VoxelsIn(reach, 1), VoxelsIn(reach, 2) };
     const auto first = [&](std::size_t axis) { return std::max(voxel[axis + 1] - wide[axis], m_All.lowest[axis]); };
     const auto last = [&](std::size_t axis) {
@@ -476,13 +474,13 @@ private:
   void
   FindAround(std::size_t of, double reach)
   {
-    const FacingSquare & own = m_All.squares[m_Which[of]];
+    const FacingSquare & own = m_All.squares[of];
     const std::size_t    row = m_All.RowAt(own.voxel[1], own.voxel[2]);
     if (row != m_Row)
     {
       EnterRow(of, row);
     }
-    const Vector3 & middle = m_All.middles[m_Which[of]];
+    const Vector3 & middle = m_All.middles[of];
     const double    squared = reach * reach;
     const double    over = 1 / reach;
     m_Around.Clear();
@@ -549,13 +547,12 @@ private:
     return terms[0];
   }
 
-  const Middles &                    m_All;
-  const std::vector<std::uint32_t> & m_Which;
-  const std::vector<double> &        m_Reaches; ///< of these
-  std::size_t                        m_Row = std::numeric_limits<std::size_t>::max();
-  std::vector<Row>                   m_Rows;
-  AroundSquare                       m_Around;
-  std::vector<double>                m_Seen; ///< what squares weigh as seen along a normal
+  const Middles &             m_All;
+  const std::vector<double> & m_Reaches; ///< of these
+  std::size_t                 m_Row = std::numeric_limits<std::size_t>::max();
+  std::vector<Row>            m_Rows;
+  AroundSquare                m_Around;
+  std::vector<double>         m_Seen; ///< what squares weigh as seen along a normal
 };
 
 LabelPlaces::LabelPlaces(const std::vector<FacingSquare> & squares, const Vector3 & sides)
@@ -565,15 +562,13 @@ LabelPlaces::LabelPlaces(const std::vector<FacingSquare> & squares, const Vector
 LabelPlaces::~LabelPlaces() = default;
 
 SurfacePlaces
-LabelPlaces::Find(const std::vector<std::uint32_t> & which,
-                  const std::vector<double> &        reaches,
-                  const ProgressCallback &           progress) const
+LabelPlaces::Find(const std::vector<double> & reaches, const ProgressCallback & progress) const
 {
-  SurfacePlaces found(which.size());
+  SurfacePlaces found(reaches.size());
   ForSquares(
-    which.size(),
+    reaches.size(),
     [&](std::size_t first, std::size_t end) {
-      Fitter fitter(*m_Middles, which, reaches);
+      Fitter fitter(*m_Middles, reaches);
       for (std::size_t i = first; i < end; ++i)
       {
         found[i] = fitter.Find(i);

@@ -57,12 +57,10 @@ public:
   LabelPlaces(const std::vector<FacingSquare> & squares, const Vector3 & sides);
   ~LabelPlaces();
 
-  /** At some of the squares, in ascending order; fits over all squares within `reaches` (mm) of each. The same for
-   *  every number of threads. \throws Cancelled */
+  /** At each square, fits over all squares within its reach (mm). The same for every number of threads.
+   *  \throws Cancelled */
   SurfacePlaces
-  Find(const std::vector<std::uint32_t> & which,
-       const std::vector<double> &        reaches,
-       const ProgressCallback &           progress) const;
+  Find(const std::vector<double> & reaches, const ProgressCallback & progress) const;
 
 private:
   struct Middles;

@@ -16,7 +16,7 @@ inline constexpr auto kPictureRows = std::to_array<Parameter>({
     "Radius",
     false,
     kRender,
-    "Colour by this length, by confidence (of a skeleton made with --probability), by sheet, or by label" },
+    "Colour by this length, by confidence (of a skeleton made from probabilities), by sheet, or by label" },
   { "view",
     "--view",
     Choice,

@@ -11,7 +11,7 @@
 //
 // How far around a square the labels are fitted follows the thickness: what is thin must not be mixed with what is
 // near it, and what is thick needs more squares, as the least of many places that err is too small. So the map is made
-// twice: first with one reach for all and with one square of four, whose map is near enough to tell reaches.
+// twice: first with one reach for all, whose map tells reaches.
 //
 // Whatever the places say, no ball reaches by more than half a part (FineBracket.h) into what lies between eight
 // centres of voxels that are out: no surface that the labels allow has that inside. So no map of these balls is above
