@@ -279,7 +279,7 @@ SayThatIsLeft(const char * text)
 const char *
 WhatIsLeft()
 {
-  const char * const                left = leftBehind.load();
+  const char * const              left = leftBehind.load();
   const TemporaryRegistry * const registry = temporaries.load();
   return left == kNothing && registry != nullptr && registry->HasCommitted()
            ? "the files that have their names are complete"

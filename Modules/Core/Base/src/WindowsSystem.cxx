@@ -53,8 +53,13 @@ ThisProcess()
   std::array<char, 1024> name{};
   DWORD                  size = machine.size() - 1;
   DWORD                  length = name.size() - 1;
-  RegGetValueA(HKEY_LOCAL_MACHINE, "SOFTWARE\\Microsoft\\Cryptography", "MachineGuid", RRF_RT_REG_SZ, nullptr,
-               machine.data(), &size);
+  RegGetValueA(HKEY_LOCAL_MACHINE,
+               "SOFTWARE\\Microsoft\\Cryptography",
+               "MachineGuid",
+               RRF_RT_REG_SZ,
+               nullptr,
+               machine.data(),
+               &size);
   GetComputerNameExA(ComputerNameDnsHostname, name.data(), &length);
   facts.machine = name.data() + ("/" + std::string(machine.data()));
   facts.space = "windows"; // a process is known by when it started, of all time
@@ -113,8 +118,13 @@ RemoveNow(const wchar_t * path, bool withContents)
 std::FILE *
 OpenToWrite(const fs::path & path, bool isNew)
 {
-  WindowsHandle handle(CreateFileW(path.c_str(), GENERIC_WRITE, kSharedByAll, nullptr,
-                                   isNew ? CREATE_NEW : CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr));
+  WindowsHandle handle(CreateFileW(path.c_str(),
+                                   GENERIC_WRITE,
+                                   kSharedByAll,
+                                   nullptr,
+                                   isNew ? CREATE_NEW : CREATE_ALWAYS,
+                                   FILE_ATTRIBUTE_NORMAL,
+                                   nullptr));
   if (!handle.IsOpen())
   {
     errno = LastErrorNumber();
@@ -152,8 +162,13 @@ struct SystemFile::Handle
 };
 
 SystemFile::SystemFile(const fs::path & path)
-  : m_Handle(new Handle{ WindowsHandle(CreateFileW(path.c_str(), GENERIC_READ, kSharedByAll, nullptr, OPEN_EXISTING,
-                                                   FILE_FLAG_SEQUENTIAL_SCAN, nullptr)) })
+  : m_Handle(new Handle{ WindowsHandle(CreateFileW(path.c_str(),
+                                                   GENERIC_READ,
+                                                   kSharedByAll,
+                                                   nullptr,
+                                                   OPEN_EXISTING,
+                                                   FILE_FLAG_SEQUENTIAL_SCAN,
+                                                   nullptr)) })
 {
   if (!IsOpen())
   {

@@ -51,9 +51,8 @@ FinishedLabels::Open(bool create)
   m_Lock = LockedFile(m_File, create);
   if (!m_Lock.IsOpen() && (create || errno != ENOENT))
   {
-    refuse(errno == EWOULDBLOCK
-             ? "another run is writing into this folder; wait for it, or give another folder"
-             : std::string("cannot write: ") + std::strerror(errno));
+    refuse(errno == EWOULDBLOCK ? "another run is writing into this folder; wait for it, or give another folder"
+                                : std::string("cannot write: ") + std::strerror(errno));
   }
 }
 

@@ -41,8 +41,7 @@ MatchesOf(const fs::path & pattern)
 
 LockedFile::LockedFile(const fs::path & path, bool create)
 {
-  const int descriptor =
-    open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (create ? O_CREAT : 0), 0666);
+  const int descriptor = open(path.c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW | (create ? O_CREAT : 0), 0666);
   if (descriptor >= 0 && flock(descriptor, LOCK_EX | LOCK_NB) != 0)
   {
     const int reason = errno;

@@ -27,8 +27,13 @@ bool
 MayWriteInto(const fs::path & folder)
 {
   // To know, a folder is opened as one who adds files to it would.
-  const WindowsHandle handle(CreateFileW(folder.c_str(), FILE_ADD_FILE, kSharedByAll, nullptr, OPEN_EXISTING,
-                                         FILE_FLAG_BACKUP_SEMANTICS, nullptr));
+  const WindowsHandle handle(CreateFileW(folder.c_str(),
+                                         FILE_ADD_FILE,
+                                         kSharedByAll,
+                                         nullptr,
+                                         OPEN_EXISTING,
+                                         FILE_FLAG_BACKUP_SEMANTICS,
+                                         nullptr));
   if (!handle.IsOpen())
   {
     errno = LastErrorNumber();
@@ -41,10 +46,9 @@ LastChanged(const fs::path & path)
 {
   std::error_code error;
   const auto      time = fs::last_write_time(path, error);
-  return error ? 0
-               : std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(time))
-                   .time_since_epoch()
-                   .count();
+  return error
+           ? 0
+           : std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(time)).time_since_epoch().count();
 }
 
 std::vector<std::string>
@@ -67,9 +71,13 @@ MatchesOf(const fs::path & pattern)
 
 LockedFile::LockedFile(const fs::path & path, bool create)
 {
-  WindowsHandle handle(CreateFileW(path.c_str(), GENERIC_READ | GENERIC_WRITE, kSharedByAll, nullptr,
+  WindowsHandle handle(CreateFileW(path.c_str(),
+                                   GENERIC_READ | GENERIC_WRITE,
+                                   kSharedByAll,
+                                   nullptr,
                                    create ? OPEN_ALWAYS : OPEN_EXISTING,
-                                   FILE_ATTRIBUTE_NORMAL | FILE_FLAG_OPEN_REPARSE_POINT, nullptr));
+                                   FILE_ATTRIBUTE_NORMAL | FILE_FLAG_OPEN_REPARSE_POINT,
+                                   nullptr));
   if (!handle.IsOpen())
   {
     errno = LastErrorNumber();
@@ -109,7 +117,7 @@ LockedFile::~LockedFile()
 bool
 LockedFile::Is(const fs::path & path) const
 {
-  const WindowsHandle named(CreateFileW(path.c_str(), 0, kSharedByAll, nullptr, OPEN_EXISTING, 0, nullptr));
+  const WindowsHandle        named(CreateFileW(path.c_str(), 0, kSharedByAll, nullptr, OPEN_EXISTING, 0, nullptr));
   BY_HANDLE_FILE_INFORMATION one{};
   BY_HANDLE_FILE_INFORMATION other{};
   return named.IsOpen() && GetFileInformationByHandle(Of(m_Handle), &one) &&

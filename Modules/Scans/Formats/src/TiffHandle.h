@@ -34,9 +34,18 @@ public:
     TIFFOpenOptionsSetErrorHandlerExtR(options, &TiffHandle::OnError, this);
     TIFFOpenOptionsSetWarningHandlerExtR(options, &TiffHandle::OnWarning, this);
     // m: no memory mapping, where a file cut short meanwhile would end the process.
-    m_Tiff = m_SystemError != 0
-               ? nullptr
-               : TIFFClientOpenExt(path.string().c_str(), "rm", this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
+    m_Tiff = m_SystemError != 0 ? nullptr
+                                : TIFFClientOpenExt(path.string().c_str(),
+                                                    "rm",
+                                                    this,
+                                                    Read,
+                                                    Write,
+                                                    Seek,
+                                                    Close,
+                                                    Size,
+                                                    nullptr,
+                                                    nullptr,
+                                                    options);
     TIFFOpenOptionsFree(options);
     if (m_Tiff == nullptr)
     {
