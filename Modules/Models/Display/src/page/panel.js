@@ -9,6 +9,7 @@ if (Page && Page.view) (function () {
     $('coloring').add(new Option(names[name], name));
   }
   if (model.byLabel) $('coloring').value = 'Label';
+  else if (model.ranges.Confidence) $('coloring').value = 'Confidence';
   const takeColoring = () => {
     state.coloring = $('coloring').value;
     $('range').value = view.chosenRange();

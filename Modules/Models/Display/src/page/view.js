@@ -20,7 +20,7 @@ if (Page) Page.view = (function () {
   const target = new THREE.Vector3(), size = meshes.size, away = 10 * size;
   meshes.build(scene);
   const parts = meshes.parts;
-  const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Confidence ? 'Confidence' : model.ranges.Thickness ? 'Thickness' : 'Radius', range: null, chosen: null,
+  const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Thickness ? 'Thickness' : 'Radius', range: null, chosen: null,
     opacity: { surface: 0.35, medial: 1, curves: 1 }, shown: { surface: true, medial: true, curves: true } };
 
   // ---- colours ----
