@@ -5,7 +5,7 @@
 # and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), analysis (what
 # reads the sources, and valgrind), browser (tests of pages), cluster (workflows, and the tests on a cluster), container
 # (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance), web
-# (WebAssembly)
+# (WebAssembly), portable (the program for other systems, and to test it)
 set -euo pipefail
 
 packages_of() {
@@ -32,10 +32,12 @@ packages_of() {
     reproduction) echo python3 python3-numpy python3-scipy python3-matplotlib python3-vtk9 libcgal-demo ;;
     web) echo emscripten node-acorn cmake ninja-build ccache dpkg-dev libboost-dev libcli11-dev nlohmann-json3-dev \
               libjs-three ;;
+    portable) echo g++ g++-aarch64-linux-gnu g++-mingw-w64-x86-64-posix cmake ninja-build ccache dpkg-dev libboost-dev \
+                   libcli11-dev nlohmann-json3-dev debootstrap qemu-user wine wine64 ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
-            "package, sanitizer, analysis, browser, cluster, container, reproduction, bench and web" >&2
+            "package, sanitizer, analysis, browser, cluster, container, reproduction, bench, web and portable" >&2
        return 2 ;;
   esac
 }

@@ -1,4 +1,4 @@
-// What MainStack.cxx, Signals.cxx and StandardStreams.cxx do elsewhere, and texts in UTF-8, as they are elsewhere: of the
+// What MainStack.cxx, Signals.cxx and StandardStreams.cxx do elsewhere, and texts in UTF-8, as they are there: of the
 // command line, of the console, and of names of files.
 
 #include "../voxelcore/MainStack.h"
@@ -7,6 +7,7 @@
 #include "voxelcore/Base/WindowsHandle.h"
 
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>

@@ -32,7 +32,8 @@ for package in $packages; do
   dpkg-source --no-check -x "$package"_*.dsc "$package" >/dev/null
   cp "$package/debian/copyright" "$folder/licences/$package.txt"
 done
-# Of the C library that Debian's programs have, its cube root: another's is another in the last bit.
+# Of the C library that Debian's programs have, its cube root: another's is another in the last bit, and so is that of
+# Debian's own for ARM, which is compiled with products and sums in one step.
 if [ -n "$foreign_math" ]; then
   apt-get "${apt_options[@]}" source --download-only glibc
   tar -xf glibc_*.orig.tar.xz --strip-components=4 --one-top-level=glibc --wildcards '*/sysdeps/ieee754/dbl-64/s_cbrt.c'
@@ -61,8 +62,8 @@ cp libpng1.6/scripts/pnglibconf.h.prebuilt "$folder/include/pnglibconf.h"
 library z zlib "-DHAVE_UNISTD_H" adler32.c compress.c crc32.c deflate.c inffast.c inflate.c inftrees.c trees.c \
   uncompr.c zutil.c
 library bz2 bzip2 "" blocksort.c bzlib.c compress.c crctable.c decompress.c huffman.c randtable.c
-library png libpng1.6 "$include -DPNG_ARM_NEON_OPT=0" png.c pngerror.c pngget.c pngmem.c pngpread.c pngread.c pngrio.c pngrtran.c \
-  pngrutil.c pngset.c pngtrans.c pngwio.c pngwrite.c pngwtran.c pngwutil.c
+library png libpng1.6 "$include -DPNG_ARM_NEON_OPT=0" png.c pngerror.c pngget.c pngmem.c pngpread.c pngread.c \
+  pngrio.c pngrtran.c pngrutil.c pngset.c pngtrans.c pngwio.c pngwrite.c pngwtran.c pngwutil.c
 # shellcheck disable=SC2046 # names of files
 library zstd libzstd "-DZSTD_DISABLE_ASM" $(cd libzstd && ls lib/common/*.c lib/compress/*.c lib/decompress/*.c)
 library lz4 lz4 "" lib/lz4.c lib/lz4hc.c
@@ -76,14 +77,17 @@ if [ "$system" = windows-x86_64 ]; then # it brings threads along, by names that
   blosc_names=$(printf ' -Dpthread_%s=blosc_pthread_%s' create create join join cond_init cond_init \
     cond_destroy cond_destroy cond_signal cond_signal cond_broadcast cond_broadcast cond_wait cond_wait)
 fi
-library blosc c-blosc "$include -I../lz4/lib$blosc_names" blosc/blosc.c blosc/blosclz.c blosc/fastcopy.c blosc/shuffle.c \
-  blosc/shuffle-generic.c blosc/bitshuffle-generic.c
+library blosc c-blosc "$include -I../lz4/lib$blosc_names" blosc/blosc.c blosc/blosclz.c blosc/fastcopy.c \
+  blosc/shuffle.c blosc/shuffle-generic.c blosc/bitshuffle-generic.c
 printf '#define %s\n' XML_DEV_URANDOM "XML_DTD 1" "XML_NS 1" "XML_CONTEXT_BYTES 1024" "BYTEORDER 1234" \
   >expat/expat/lib/expat_config.h
 library expat expat "-I expat/lib" expat/lib/xmlparse.c expat/lib/xmlrole.c expat/lib/xmltok.c
 : >libmd/src/config.h
 library md libmd "-I include -I src -DSHA2_UNROLL_TRANSFORM" src/sha2.c
 if [ -n "$foreign_math" ]; then
+  # What it asks goes by glibc's numbers for kinds of numbers.
+  sed -i 's/fpclassify (x) <= FP_ZERO/(!isfinite (x) || x == 0)/' glibc/s_cbrt.c
+  grep -q 'isfinite (x) || x == 0' glibc/s_cbrt.c || { echo "libraries.sh: another s_cbrt.c" >&2; exit 1; }
   touch glibc/math_private.h glibc/libm-alias-double.h
   library cbrt glibc "-I . -include math.h -ffp-contract=off -D__cbrt=cbrt -D__frexp=frexp -D__ldexp=ldexp \
     '-Dlibm_alias_double(a,b)='" s_cbrt.c

@@ -1,10 +1,11 @@
 # How everything is compiled for a system, libraries and program alike.
 # usage: system=linux-x86_64|linux-arm64|windows-x86_64|wasm; source toolchain.sh
 # Sets compiler (of C), archiver, configure (cmake and what it must be told), flags, link_flags, module_path (where
-# cmake looks for what finds libraries), and where the C library is not Debian's own foreign_math=yes: then what that
-# has otherwise comes from Debian's.
+# cmake looks for what finds libraries), runtimes (the packages with the licences of what the compiler links in), and
+# foreign_math=yes where the C library's mathematics has other last bits than on Debian's x86-64.
 # shellcheck shell=bash disable=SC2034
 foreign_math=
+runtimes=(libc6 libgomp1)
 flags=(-O3)
 link_flags=(-static -s)
 module_path=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/cmake
@@ -24,10 +25,14 @@ cmake_cross() { # NAME-OF-SYSTEM PROCESSOR PREFIX-OF-COMPILERS SUFFIX
 }
 case "$system" in
   linux-x86_64) cmake_cross Linux x86_64 x86_64-linux-gnu- "" ;;
-  linux-arm64) cmake_cross Linux aarch64 aarch64-linux-gnu- "" ;;
+  linux-arm64)
+    cmake_cross Linux aarch64 aarch64-linux-gnu- ""
+    foreign_math=yes
+    ;;
   windows-x86_64)
     cmake_cross Windows AMD64 x86_64-w64-mingw32- -posix # threads as C++ has them
     configure+=(-DCMAKE_RC_COMPILER="$(command -v x86_64-w64-mingw32-windres)")
+    runtimes=(mingw-w64-common libgomp1)
     flags+=(-D_WIN32_WINNT=0x0A00 -D_FILE_OFFSET_BITS=64)
     foreign_math=yes
     ;;

@@ -109,6 +109,7 @@ ParseCommandLine(int argc, char ** argv)
   app.set_version_flag("--version", VersionText());
   app.footer(kFooter);
   app.require_subcommand(0, 1);
+  app.allow_windows_style_options(false); // the same command line on every system
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "Print this help");
   app.get_option("--version")->description("Print version, engines and libraries");

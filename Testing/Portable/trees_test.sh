@@ -58,7 +58,8 @@ for suite in bullseye bookworm sid; do
   chroot "$root" env -i PATH=/usr/bin:/bin sh -c "cd /there && $runs" runs /given/voxelcore /given/data
   umount "$root/proc"
   # What a report says of the run itself, such as its time, is another there.
-  diff -r --exclude='*.json' --exclude='*.rsml' --exclude=cases.csv --exclude='*.jsonl' "$folder/here" "$root/there" >"$folder/$suite.diff" ||
+  diff -r --exclude='*.json' --exclude='*.rsml' --exclude=cases.csv --exclude='*.jsonl' "$folder/here" \
+    "$root/there" >"$folder/$suite.diff" ||
     { head "$folder/$suite.diff" >&2; fail "$suite: the bits are others there"; }
 done
 echo "bullseye, bookworm and sid: the program runs, and its bits are the same"

@@ -6,7 +6,6 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <utility>
 
 namespace voxelcore
 {
@@ -50,17 +49,6 @@ LockedFile::LockedFile(const fs::path & path, bool create)
     return;
   }
   m_Handle = descriptor;
-}
-
-LockedFile::LockedFile(LockedFile && other) noexcept
-  : m_Handle(std::exchange(other.m_Handle, -1))
-{}
-
-LockedFile &
-LockedFile::operator=(LockedFile && other) noexcept
-{
-  std::swap(m_Handle, other.m_Handle);
-  return *this;
 }
 
 LockedFile::~LockedFile()

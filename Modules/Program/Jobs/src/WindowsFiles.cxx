@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <utility>
 
 namespace voxelcore
 {
@@ -93,17 +92,6 @@ LockedFile::LockedFile(const fs::path & path, bool create)
     return;
   }
   m_Handle = reinterpret_cast<std::intptr_t>(handle.Release());
-}
-
-LockedFile::LockedFile(LockedFile && other) noexcept
-  : m_Handle(std::exchange(other.m_Handle, -1))
-{}
-
-LockedFile &
-LockedFile::operator=(LockedFile && other) noexcept
-{
-  std::swap(m_Handle, other.m_Handle);
-  return *this;
 }
 
 LockedFile::~LockedFile()

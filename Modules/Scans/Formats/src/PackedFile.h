@@ -39,6 +39,11 @@ public:
     {
       throw std::bad_alloc();
     }
+    if (wrapping == Wrapping::Gzip)
+    {
+      m_Header.os = 3; // as on Unix; left to itself, zlib names the system, and files differ
+      deflateSetHeader(&m_Zlib, &m_Header);
+    }
   }
   PackedFile(const PackedFile &) = delete;
   PackedFile &
@@ -106,6 +111,7 @@ private:
   OutputFile         m_File;
   bool               m_Wrapped;
   z_stream           m_Zlib{};
+  gz_header          m_Header{};
   std::vector<Bytef> m_Packed = std::vector<Bytef>(1U << 18);
   std::uint64_t      m_Bytes = 0;
 };

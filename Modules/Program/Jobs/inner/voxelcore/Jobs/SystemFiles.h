@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -32,9 +33,15 @@ public:
   /** Opens it, no link, `create` also where it is not there, and locks it. Where that fails errno says why: EWOULDBLOCK
    *  when another process has it. */
   LockedFile(const std::filesystem::path & path, bool create);
-  LockedFile(LockedFile && other) noexcept;
+  LockedFile(LockedFile && other) noexcept
+    : m_Handle(std::exchange(other.m_Handle, -1))
+  {}
   LockedFile &
-  operator=(LockedFile && other) noexcept;
+  operator=(LockedFile && other) noexcept
+  {
+    std::swap(m_Handle, other.m_Handle);
+    return *this;
+  }
   ~LockedFile();
 
   bool
