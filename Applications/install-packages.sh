@@ -33,7 +33,7 @@ packages_of() {
     web) echo emscripten node-acorn cmake ninja-build ccache dpkg-dev libboost-dev libcli11-dev nlohmann-json3-dev \
               libjs-three ;;
     portable) echo g++ g++-aarch64-linux-gnu g++-mingw-w64-x86-64-posix cmake ninja-build ccache dpkg-dev libboost-dev \
-                   libcli11-dev nlohmann-json3-dev debootstrap qemu-user wine wine64 ;;
+                   libcli11-dev nlohmann-json3-dev zip debootstrap qemu-user wine wine64 ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \

@@ -31,7 +31,7 @@ cmake --build "$build/program" --target voxelcore
 # The program and the licences of all that is in it, packed; the same sources give the same bits.
 version=$(bash "$here/../release/version.sh")
 name=voxelcore-$version-$system
-epoch=${SOURCE_DATE_EPOCH:-0}
+epoch=${SOURCE_DATE_EPOCH:-315619200} # of 1980, where the times of a .zip begin
 rm -rf "$build/$name" "$build/$name".*
 mkdir -p "$build/$name/licences"
 cp "$build/program/bin/"voxelcore* "$source_folder/LICENSE" "$here/README.md" "$build/$name/"
@@ -40,12 +40,12 @@ for package in libboost-dev libcli11-dev nlohmann-json3-dev "${runtimes[@]}"; do
   cp "/usr/share/doc/$package/copyright" "$build/$name/licences/$package.txt"
 done
 cd "$build"
+find "$name" -exec touch -d "@$epoch" {} +
 if [ "$system" = windows-x86_64 ]; then
   packed=$name.zip
-  find "$name" -type f | LC_ALL=C sort |
-    cmake -E tar cf "$packed" --format=zip --mtime="@$epoch" --files-from=/dev/stdin
+  find "$name" -type f | LC_ALL=C sort | TZ=UTC zip -X -q -@ "$packed"
 else
   packed=$name.tar.gz
-  tar --sort=name --mtime="@$epoch" --owner=0 --group=0 --numeric-owner -c "$name" | gzip -n -9 >"$packed"
+  tar --sort=name --owner=0 --group=0 --numeric-owner -c "$name" | gzip -n -9 >"$packed"
 fi
 echo "$build/$packed: $(stat -c %s "$packed") bytes"
