@@ -63,7 +63,7 @@ SkeletonAlone(const char * standOut, const char * smooth)
 
 TEST(SingleLayer, StepsOfABandAreNoBranches)
 {
-  const unsigned seed = 20261130; // of others one in ten keeps a branch
+  const unsigned seed = 20261130; // with 38 and 743350566 a line is up to 5.4 voxels shorter than told below
   RecordProperty("seed", std::to_string(seed));
   std::mt19937                     random(seed);
   std::uniform_real_distribution<> unit(0, 1);
