@@ -1,8 +1,8 @@
 // What MainStack.cxx, Signals.cxx and StandardStreams.cxx do elsewhere, and texts in UTF-8, as they are there: of the
 // command line, of the console, and of names of files.
 
+#include "../voxelcore/Ending.h"
 #include "../voxelcore/MainStack.h"
-#include "../voxelcore/Signals.h"
 #include "../voxelcore/StandardStreams.h"
 #include "voxelcore/Base/WindowsHandle.h"
 
@@ -23,25 +23,11 @@
 namespace
 {
 
-constexpr char kNothing[] = "nothing was written";
+using namespace voxelcore; // NOLINT: a part of the program
 
-std::atomic<bool>                                 interrupted{ false };
-std::atomic<bool>                                 calledOff{ false };
-std::atomic<const voxelcore::TemporaryRegistry *> temporaries{ nullptr };
-std::atomic<int>                                  errorStream{ 2 };
-std::atomic<const char *>                         leftBehind{ kNothing };
-std::atomic<bool>                                 endsByItself{ false };
+std::atomic<bool> calledOff{ false };
 
-constexpr UINT  kInterrupted = 130;
-constexpr DWORD kToStop = 500;  ///< ms for a job to stop by itself
-constexpr DWORD kToCommit = 50; ///< ms between looks whether files have got their names
-constexpr int   kLooks = 40;    ///< then a file system hangs
-
-void
-Say(const char * text)
-{
-  static_cast<void>(_write(errorStream.load(), text, static_cast<unsigned>(std::strlen(text))));
-}
+constexpr UINT kInterrupted = 130;
 
 [[noreturn]] void
 End(UINT code)
@@ -50,27 +36,16 @@ End(UINT code)
   std::abort();
 }
 
-void
-RemoveTemporaries()
-{
-  if (const voxelcore::TemporaryRegistry * const registry = temporaries.load())
-  {
-    registry->RemoveAllNow();
-  }
-}
-
 [[noreturn]] void
 EndInterrupted()
 {
-  const voxelcore::TemporaryRegistry * const registry = temporaries.load();
+  const TemporaryRegistry * const registry = temporaries.load();
   for (int look = 0; look < kLooks && registry != nullptr && registry->IsCommitting(); ++look)
   {
     Sleep(kToCommit);
   }
   RemoveTemporaries();
-  Say("\nvoxelcore: interrupted; ");
-  Say(voxelcore::WhatIsLeft());
-  Say("\n");
+  SayWhatIsLeft("\nvoxelcore: interrupted; ");
   End(kInterrupted);
 }
 
@@ -92,12 +67,10 @@ OnControl(DWORD event)
   return TRUE;
 }
 
-void
-SayCrash()
+[[noreturn]] void
+EndCrashed()
 {
-  Say("voxelcore: internal error: the program crashed; ");
-  Say(voxelcore::WhatIsLeft());
-  Say("; please report this with the scan\n");
+  SayCrash();
   RemoveTemporaries();
   End(1);
 }
@@ -105,14 +78,13 @@ SayCrash()
 LONG WINAPI
 OnCrash(EXCEPTION_POINTERS *)
 {
-  SayCrash();
-  return EXCEPTION_EXECUTE_HANDLER;
+  EndCrashed();
 }
 
 void
 OnAbort(int)
 {
-  SayCrash();
+  EndCrashed();
 }
 
 void
@@ -120,9 +92,7 @@ OnExit()
 {
   if (!endsByItself.load())
   {
-    Say("voxelcore: a library ended the program, as for lack of memory; ");
-    Say(voxelcore::WhatIsLeft());
-    Say("\n");
+    SayWhatIsLeft("voxelcore: a library ended the program, as for lack of memory; ");
     RemoveTemporaries();
     End(1);
   }
@@ -269,28 +239,6 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
   std::signal(SIGABRT, OnAbort);
   ULONG room = 65536; // a stack that ran over has none for the handler
   SetThreadStackGuarantee(&room);
-}
-
-void
-SayThatIsLeft(const char * text)
-{
-  leftBehind = text;
-}
-
-const char *
-WhatIsLeft()
-{
-  const char * const              left = leftBehind.load();
-  const TemporaryRegistry * const registry = temporaries.load();
-  return left == kNothing && registry != nullptr && registry->HasCommitted()
-           ? "the files that have their names are complete"
-           : left;
-}
-
-void
-EndByItself()
-{
-  endsByItself = true;
 }
 
 bool

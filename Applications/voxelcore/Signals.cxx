@@ -1,11 +1,10 @@
-#include "Signals.h"
+#include "Ending.h"
 
 #include "voxelcore/Base/EightLanes.h"
 
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <initializer_list>
 #include <sys/resource.h>
@@ -17,22 +16,12 @@ namespace voxelcore
 namespace
 {
 
-constexpr char kNothing[] = "nothing was written";
-
 // A handler gets nothing but the signal's number, so what it needs must lie here.
-std::atomic<bool>                      interrupted{ false };
-std::atomic<const TemporaryRegistry *> temporaries{ nullptr };
-std::atomic<int>                       errorStream{ STDERR_FILENO };
-std::atomic<const char *>              leftBehind{ kNothing };
-std::atomic<bool>                      onTerminal{ false };
-std::atomic<int>                       commitsWaitedFor{ 0 };
-std::atomic<bool>                      endsByItself{ false };
-timer_t                                deadline{};
+std::atomic<bool> onTerminal{ false };
+std::atomic<int>  commitsWaitedFor{ 0 };
+timer_t           deadline{};
 
-constexpr int  kInterrupted = 130;
-constexpr long kToStop = 500;  ///< ms for a job to stop by itself
-constexpr long kToCommit = 50; ///< ms between looks whether files have got their names
-constexpr int  kLooks = 40;    ///< then a file system hangs
+constexpr int kInterrupted = 130;
 
 void
 SetDeadline(long milliseconds)
@@ -42,25 +31,16 @@ SetDeadline(long milliseconds)
 }
 
 void
-Say(const char * text)
-{
-  static_cast<void>(!write(errorStream.load(), text, std::strlen(text)));
-}
-
-void
 EndNow()
 {
-  const TemporaryRegistry & registry = *temporaries.load();
-  if (registry.IsCommitting() && commitsWaitedFor++ < kLooks)
+  if (temporaries.load()->IsCommitting() && commitsWaitedFor++ < kLooks)
   {
     SetDeadline(kToCommit);
     return;
   }
-  registry.RemoveAllNow();
+  RemoveTemporaries();
   Say(onTerminal.load() ? "\r\033[K" : ""); // where a progress bar stood
-  Say("voxelcore: interrupted; ");
-  Say(WhatIsLeft());
-  Say("\n");
+  SayWhatIsLeft("voxelcore: interrupted; ");
   _exit(kInterrupted);
 }
 
@@ -87,10 +67,8 @@ OnDeadline(int)
 [[maybe_unused]] void // a sanitizer tells of crashes itself
 OnCrash(int)
 {
-  Say("voxelcore: internal error: the program crashed; ");
-  Say(WhatIsLeft());
-  Say("; please report this with the scan\n");
-  temporaries.load()->RemoveAllNow();
+  SayCrash();
+  RemoveTemporaries();
   _exit(1);
 }
 
@@ -100,10 +78,8 @@ OnExit()
 {
   if (!endsByItself.load())
   {
-    Say("voxelcore: a library ended the program, as for lack of memory or because the X server is gone; ");
-    Say(WhatIsLeft());
-    Say("\n");
-    temporaries.load()->RemoveAllNow();
+    SayWhatIsLeft("voxelcore: a library ended the program, as for lack of memory or because the X server is gone; ");
+    RemoveTemporaries();
     _exit(1);
   }
 }
@@ -112,9 +88,7 @@ OnExit()
 void
 OnEarlyInterrupt(int)
 {
-  Say("voxelcore: interrupted; ");
-  Say(kNothing);
-  Say("\n");
+  SayWhatIsLeft("voxelcore: interrupted; ");
   _exit(kInterrupted);
 }
 
@@ -183,25 +157,6 @@ HandleSignals(const TemporaryRegistry & registry, int errorDescriptor)
     Install(signal, OnCrash, static_cast<int>(SA_RESETHAND) | SA_ONSTACK);
   }
 #endif
-}
-
-void
-SayThatIsLeft(const char * text)
-{
-  leftBehind = text;
-}
-
-const char *
-WhatIsLeft()
-{
-  const char * const left = leftBehind.load();
-  return left == kNothing && temporaries.load()->HasCommitted() ? "the files that have their names are complete" : left;
-}
-
-void
-EndByItself()
-{
-  endsByItself = true;
 }
 
 bool

@@ -1,20 +1,12 @@
 // What MainStack.cxx and Signals.cxx do elsewhere, and the table of options for a page's forms. Here the stack has its
 // size from the start, and nothing but the page or Node ends the program: it asks for that by Module.isCancelled().
 
+#include "../voxelcore/Ending.h"
 #include "../voxelcore/MainStack.h"
-#include "../voxelcore/Signals.h"
 #include "voxelcore/Options/Parameters.h"
 
 #include <emscripten.h>
 #include <nlohmann/json.hpp>
-
-namespace
-{
-
-const voxelcore::TemporaryRegistry * temporaries = nullptr;
-const char *                         leftBehind = nullptr;
-
-} // namespace
 
 EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["isCancelled"]() ? 1 : 0; });
 
@@ -75,24 +67,6 @@ HandleSignals(const TemporaryRegistry & registry, int)
 {
   temporaries = &registry;
 }
-
-void
-SayThatIsLeft(const char * text)
-{
-  leftBehind = text;
-}
-
-const char *
-WhatIsLeft()
-{
-  return leftBehind != nullptr         ? leftBehind
-         : temporaries->HasCommitted() ? "the files that have their names are complete"
-                                       : "nothing was written";
-}
-
-void
-EndByItself()
-{}
 
 bool
 WasInterrupted()

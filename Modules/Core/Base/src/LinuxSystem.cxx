@@ -174,12 +174,6 @@ RemoveNow(const char * path, bool withContents)
   }
 }
 
-std::FILE *
-OpenToWrite(const std::filesystem::path & path, bool isNew)
-{
-  return std::fopen(path.c_str(), isNew ? "wbx" : "wb");
-}
-
 void
 GiveBackFreeMemory()
 {

@@ -71,12 +71,6 @@ RemoveNow(const char * path, bool withContents)
   withContents ? std::filesystem::remove_all(path, ignored) : std::filesystem::remove(path, ignored);
 }
 
-std::FILE *
-OpenToWrite(const std::filesystem::path & path, bool isNew)
-{
-  return std::fopen(path.c_str(), isNew ? "wbx" : "wb");
-}
-
 void
 GiveBackFreeMemory()
 {}

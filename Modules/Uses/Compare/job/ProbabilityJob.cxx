@@ -15,6 +15,7 @@
 #include "voxelcore/Jobs/SkeletonFiles.h"
 #include "voxelcore/Models/TableColumns.h"
 #include "voxelcore/Report/ReportTable.h"
+#include "voxelcore/Shape/ShapeBits.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
 #include <algorithm>
@@ -119,13 +120,13 @@ ShapeAt(const ProbabilityMap & map, double threshold)
 }
 
 ScanAtHand
-EditedAt(const ProbabilityMap & map, double threshold, const SkeletonOptions & making)
+Edited(const ProbabilityMap & map, LabelShape shape, const SkeletonOptions & making)
 {
   ScanAtHand scan;
   scan.volume = map.scan;
   scan.volume.labels.clear();
   std::vector<LabelShape> labels;
-  labels.push_back(ShapeAt(map, threshold));
+  labels.push_back(std::move(shape));
   scan.edited = EditLabels(std::move(labels), map.scan.geometry, making.edits, true, making.input.string());
   return scan;
 }
@@ -149,34 +150,21 @@ std::size_t
 KeepComponentsWith(const std::vector<std::array<std::int32_t, 3>> & voxels, LabelShape & label)
 {
   std::size_t removed = 0;
+  VoxelShape  kept(label.shape.Box());
   for (const VoxelShape & component : SplitComponents(label.shape))
   {
     if (ranges::any_of(voxels, [&](const auto & at) { return component.Contains(at[0], at[1], at[2]); }))
     {
-      continue;
+      PutInto(component, kept);
     }
-    ++removed;
-    const VoxelBox & box = component.Box();
-    const VoxelBox & all = label.shape.Box();
-    for (std::int32_t z = box.lower[2]; z < box.lower[2] + box.size[2]; ++z)
+    else
     {
-      for (std::int32_t y = box.lower[1]; y < box.lower[1] + box.size[1]; ++y)
-      {
-        const auto row = label.shape.Row(y - all.lower[1], z - all.lower[2]);
-        for (std::int32_t x = box.lower[0]; x < box.lower[0] + box.size[0]; ++x)
-        {
-          if (component.Contains(x, y, z))
-          {
-            const auto at = static_cast<std::uint32_t>(x - all.lower[0]);
-            row[at >> 6U] &= ~(std::uint64_t{ 1 } << (at & 63U));
-          }
-        }
-      }
+      ++removed;
     }
   }
   if (removed > 0)
   {
-    label.shape = CropToVoxels(std::move(label.shape));
+    label.shape = CropToVoxels(std::move(kept));
     label.voxels = label.shape.CountVoxels();
   }
   return removed;
@@ -357,14 +345,15 @@ RunProbabilityJob(const ProbabilityOptions & options, const JobContext & given)
     const std::size_t number = all.trees.size();
     ThresholdRecord & record = result.thresholds.emplace_back();
     record.threshold = threshold;
-    record.voxels = ShapeAt(map, threshold).voxels;
+    LabelShape shape = ShapeAt(map, threshold);
+    record.voxels = shape.voxels;
     SkeletonGraph & tree = all.trees.emplace_back();
     if (record.voxels == 0)
     {
       continue;
     }
     part.progress = NamedPartOfProgress(trees, "threshold " + ShortText(threshold), share(number), share(number + 1));
-    ScanAtHand scan = EditedAt(map, threshold, making);
+    ScanAtHand scan = Edited(map, std::move(shape), making);
     scan.done = [&](LabelOutcome & outcome) {
       record.topology = outcome.record.skeleton->topology;
       record.branches = outcome.skeleton->graph.BranchCount();
@@ -403,7 +392,7 @@ RunProbabilityJob(const ProbabilityOptions & options, const JobContext & given)
   result.thresholds[chosen].isChosen = true;
 
   part.progress = plan.Next();
-  ScanAtHand        scan = EditedAt(map, threshold, making);
+  ScanAtHand        scan = Edited(map, ShapeAt(map, threshold), making);
   const std::size_t pieces = KeepComponentsWith(VoxelsOfStable(all.trees[chosen], stable[chosen], map.scan.geometry),
                                                 scan.edited.labels.at(0).label);
   std::size_t       ends = 0;

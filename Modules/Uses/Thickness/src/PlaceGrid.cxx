@@ -8,10 +8,11 @@ namespace
 
 constexpr std::size_t kFewBlocks = 4096; ///< as many may always be
 
-/** From counts to where each begins; what they begin with is the first of all. */
+/** From counts to where each begins. */
 void
-CountsToBegins(std::vector<std::uint32_t> & counts, std::uint32_t first)
+CountsToBegins(std::vector<std::uint32_t> & counts)
 {
+  std::uint32_t first = 0;
   for (std::uint32_t & one : counts)
   {
     const std::uint32_t count = one;
@@ -70,7 +71,7 @@ PlaceGrid::PlaceGrid(std::size_t count, const std::function<Vector3(std::size_t)
       sizes.push_back(next[i]);
     }
   }
-  CountsToBegins(next, 0);
+  CountsToBegins(next);
   for (std::size_t i = 0; i < count; ++i)
   {
     m_Order[next[blockOf(placeOf(i))]++] = static_cast<std::uint32_t>(i);
