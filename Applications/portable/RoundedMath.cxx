@@ -1,5 +1,5 @@
-// Functions whose last bits the C library here has otherwise than that of Debian's programs: rounded from twice the
-// digits, which that is but for one value in a thousand.
+// Functions whose last bits the C library here has otherwise than that of Debian's programs: rounded from more digits,
+// which those are but for one value in hundreds (measured on Windows: 8 to 53 of 20,000).
 
 #include <cmath>
 
