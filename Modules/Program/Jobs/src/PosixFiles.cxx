@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 bool
 MayWriteInto(const fs::path & folder)
 {
-  return access(folder.c_str(), R_OK | W_OK | X_OK) == 0;
+  return access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
 std::time_t

@@ -233,10 +233,15 @@ TroubleWith(const fs::path & folder)
 std::string
 TroubleWritingInto(const fs::path & folder)
 {
-  const std::string trouble = TroubleWith(folder);
-  return !trouble.empty() || MayWriteInto(folder)
-           ? trouble
-           : folder.string() + ": cannot write into this folder: " + std::strerror(errno);
+  if (const std::string trouble = TroubleWith(folder); !trouble.empty())
+  {
+    return trouble;
+  }
+  std::error_code              error;
+  const fs::directory_iterator listed(folder, error); // as gathering does
+  return !error && MayWriteInto(folder)
+           ? ""
+           : folder.string() + ": cannot write into this folder: " + (error ? error.message() : std::strerror(errno));
 }
 
 } // namespace voxelcore

@@ -5,6 +5,7 @@
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Base/Text.h"
+#include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Compare/CompareTables.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/CoreJobSteps.h"
@@ -405,10 +406,15 @@ RunProbabilityJob(const ProbabilityOptions & options, const JobContext & given)
   {
     result.notes.push_back(making.input.string() + ": values from 0 to 255 are taken as probabilities from 0 to 1");
   }
-  result.notes.push_back("threshold " + ShortText(threshold) + " is chosen; without what lives over less than " +
-                         ShortText(options.persistence) + ": " + std::to_string(pieces) +
-                         (pieces == 1 ? " piece and " : " pieces and ") + std::to_string(ends) +
-                         (ends == 1 ? " end" : " ends") + " left out");
+  std::string leftOut = pieces > 0 ? Counted(pieces, "piece", "pieces") : "";
+  if (ends > 0)
+  {
+    leftOut += (pieces > 0 ? " and " : "") + Counted(ends, "end", "ends");
+  }
+  result.notes.push_back(
+    "threshold " + ShortText(threshold) + " is chosen" +
+    (leftOut.empty() ? ""
+                     : "; left out, as they live over less than " + ShortText(options.persistence) + ": " + leftOut));
   const CompareTable table = TableOf(result);
   const fs::path     path = FileOutputPath(making.output, "_thresholds").replace_extension(".csv");
   WriteCompareCsv(transaction.Stage(path), table, context.Heads(result.report.input.geometry.unit));
