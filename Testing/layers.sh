@@ -37,14 +37,16 @@ may_use() {
     Report) echo "$core Labels Masks Formats Imaging Models" ;;
     Jobs) echo "$core Labels Masks Formats ItkReader Imaging Models Display Report" ;;
     Options) echo "$core Labels Masks Formats Imaging Models Report Jobs" ;;
-    Blocks | Meshes | Phantom | Thickness | Sheets | Vessels | Roots | Compare | Cohort)
-      if [ "$2" = src ] && [ "$1" != Cohort ]; then
+    *)
+      if [ ! -d "Modules/Uses/$1" ]; then
+        echo "layers.sh: no rule for the room $1; add one" >&2
+        return 1
+      elif [ "$2" = src ] && [ "$1" != Cohort ]; then
         echo "$core"
       else
         echo "$core $scans $models $program"
       fi
       ;;
-    *) echo "layers.sh: no rule for the room $1; add one" >&2; return 1 ;;
   esac
 }
 
@@ -57,13 +59,6 @@ Report Vessels      | the report's struct has lesions as a member
 Jobs Vessels        | core and skeleton write sections, branches, centerlines and flow of what they have made
 Jobs Blocks         | core makes blocks and joins them; core --join takes their cells in place of its own
 Jobs Meshes         | a mesh may stand wherever a scan may
-Options Compare     | the table of options fills the requests of all streets
-Options Meshes      | the same
-Options Phantom     | the same
-Options Roots       | the same
-Options Sheets      | the same
-Options Thickness   | the same
-Options Vessels     | the same
 Phantom Roots       | the truth of a phantom with roots is written as Roots writes its tables
 END
 )

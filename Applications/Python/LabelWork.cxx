@@ -7,7 +7,7 @@
 #include "voxelcore/Jobs/RefineStage.h"
 #include "voxelcore/Jobs/SkeletonJob.h"
 #include "voxelcore/Labels/GreyScan.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Thickness/ThicknessCommand.h"
 #include "voxelcore/Report/ResultRecords.h"
 
 #include <optional>

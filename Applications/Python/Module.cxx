@@ -7,7 +7,7 @@
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Jobs/SkeletonFiles.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
 #include <pybind11/stl.h>
 
@@ -52,23 +52,20 @@ OptionTable()
   py::list table;
   for (const Command & command : Commands())
   {
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
-      if (BelongsTo(parameter, command.id))
-      {
-        py::dict row;
-        row["command"] = std::string(command.name);
-        row["group"] = std::string(GroupHeading(parameter.group));
-        row["name"] = std::string(parameter.name);
-        row["flags"] = std::string(parameter.flags);
-        row["keyword"] = KeywordOf(parameter);
-        row["is_flag"] = parameter.kind == ParameterKind::Flag;
-        row["kind"] = KindName(parameter.kind);
-        row["placeholder"] = std::string(parameter.placeholder);
-        row["default"] = std::string(parameter.defaultValue);
-        row["description"] = std::string(parameter.description);
-        table.append(row);
-      }
+      py::dict row;
+      row["command"] = std::string(command.name);
+      row["group"] = std::string(GroupHeading(parameter.group));
+      row["name"] = std::string(parameter.name);
+      row["flags"] = std::string(parameter.flags);
+      row["keyword"] = KeywordOf(parameter);
+      row["is_flag"] = parameter.kind == ParameterKind::Flag;
+      row["kind"] = KindName(parameter.kind);
+      row["placeholder"] = std::string(parameter.placeholder);
+      row["default"] = std::string(parameter.defaultValue);
+      row["description"] = std::string(parameter.description);
+      table.append(row);
     }
   }
   return table;

@@ -8,6 +8,7 @@
 #include "voxelcore/Base/Progress.h"
 #include "voxelcore/Certified/CertifiedSkeleton.h"
 #include "voxelcore/Certified/CertifiedThickness.h"
+#include "voxelcore/Compare/CompareCommand.h"
 #include "voxelcore/Compare/ProbabilityJob.h"
 #include "voxelcore/Imaging/ScanRows.h"
 
@@ -102,7 +103,7 @@ CoresOfArray(const py::array &                            array,
 {
   const ArrayView     view = ViewOf(array);
   const ImageGeometry geometry = PlacedGeometry(view, spacing, origin, direction);
-  return RunInOwnThread(ThreadsFrom(values, CommandId::Core), listener, array, [=](const ProgressCallback & progress) {
+  return RunInOwnThread(ThreadsFrom(values), listener, array, [=](const ProgressCallback & progress) {
     return MakeCores(view, geometry, values, progress);
   });
 }
@@ -115,11 +116,9 @@ ThicknessOfAnArray(const py::array &                            array,
 {
   const ArrayView     view = ViewOf(array);
   const ImageGeometry geometry = GeometryOf(view, spacing);
-  return RunInOwnThread(
-    ThreadsFrom(values, CommandId::Thickness),
-    listener,
-    array,
-    [=](const ProgressCallback & progress) { return MakeThickness(view, geometry, values, progress); });
+  return RunInOwnThread(ThreadsFrom(values), listener, array, [=](const ProgressCallback & progress) {
+    return MakeThickness(view, geometry, values, progress);
+  });
 }
 
 /** How a core is cut into sheets; numbers count from 0, -1 stands for none. */
@@ -232,27 +231,22 @@ CompareBoth(const py::tuple & a, const py::tuple & b, const ParameterValues & va
 {
   const auto makeA = SideOf(a);
   const auto makeB = SideOf(b);
-  return RunInOwnThread(
-    ThreadsFrom(values, CommandId::Compare),
-    listener,
-    py::make_tuple(a, b),
-    [=](const ProgressCallback & progress) {
-      const CompareOptions options = CompareOptionsWithoutFiles(values);
-      CompareSide          sideA = makeA(options, PartOfProgress(progress, "reading", 0, 0.1));
-      CompareSide          sideB = makeB(options, PartOfProgress(progress, "reading", 0.1, 0.2));
-      return CompareJson(
-        Compare(std::move(sideA), std::move(sideB), options, PartOfProgress(progress, "comparing", 0.2, 1)),
-        options);
-    });
+  return RunInOwnThread(ThreadsFrom(values), listener, py::make_tuple(a, b), [=](const ProgressCallback & progress) {
+    const CompareOptions options = CompareOptionsWithoutFiles(values);
+    CompareSide          sideA = makeA(options, PartOfProgress(progress, "reading", 0, 0.1));
+    CompareSide          sideB = makeB(options, PartOfProgress(progress, "reading", 0.1, 0.2));
+    return CompareJson(
+      Compare(std::move(sideA), std::move(sideB), options, PartOfProgress(progress, "comparing", 0.2, 1)),
+      options);
+  });
 }
 
 std::vector<std::shared_ptr<CoreOfLabel>>
 PruneCore(const std::shared_ptr<CoreOfLabel> & core, const ParameterValues & values, const py::object & listener)
 {
-  return RunInOwnThread(ThreadsFrom(values, CommandId::Prune),
-                        listener,
-                        py::none(),
-                        [=](const ProgressCallback & progress) { return Prune(*core, values, progress); });
+  return RunInOwnThread(ThreadsFrom(values), listener, py::none(), [=](const ProgressCallback & progress) {
+    return Prune(*core, values, progress);
+  });
 }
 
 std::shared_ptr<SkeletonOfLabel>
@@ -260,7 +254,7 @@ MeasureSkeleton(const std::shared_ptr<SkeletonOfLabel> & skeleton,
                 const ParameterValues &                  values,
                 const py::object &                       listener)
 {
-  return RunInOwnThread(ThreadsFrom(values, CommandId::Measure), listener, py::none(), [=](const ProgressCallback &) {
+  return RunInOwnThread(ThreadsFrom(values), listener, py::none(), [=](const ProgressCallback &) {
     return Remeasure(*skeleton, values);
   });
 }
@@ -314,11 +308,9 @@ SkeletonOfCore(const std::shared_ptr<CoreOfLabel> & core,
                const py::object &                   listener,
                bool                                 ofArray)
 {
-  return RunInOwnThread(
-    ThreadsFrom(values, CommandId::Skeleton),
-    listener,
-    py::none(),
-    [=](const ProgressCallback & progress) { return MakeSkeletonOf(core, values, ofArray, progress); });
+  return RunInOwnThread(ThreadsFrom(values), listener, py::none(), [=](const ProgressCallback & progress) {
+    return MakeSkeletonOf(core, values, ofArray, progress);
+  });
 }
 
 std::shared_ptr<SkeletonOfLabel>
@@ -332,12 +324,9 @@ NetworkOfArray(const py::array &                            array,
 {
   const ArrayView     view = ViewOf(array);
   const ImageGeometry geometry = PlacedGeometry(view, spacing, origin, direction);
-  return RunInOwnThread(ThreadsFrom(coreValues, CommandId::Core),
-                        listener,
-                        array,
-                        [=](const ProgressCallback & progress) {
-                          return MakeNetworkOf(view, geometry, coreValues, skeletonValues, progress);
-                        });
+  return RunInOwnThread(ThreadsFrom(coreValues), listener, array, [=](const ProgressCallback & progress) {
+    return MakeNetworkOf(view, geometry, coreValues, skeletonValues, progress);
+  });
 }
 
 /** Paths arrive as bytes, so that any file name will do. Work left behind may still hold the same temporary name. */

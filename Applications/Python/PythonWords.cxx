@@ -1,6 +1,6 @@
 #include "PythonWords.h"
 
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
 #include <algorithm>
 #include <regex>
@@ -23,12 +23,15 @@ TakesTuple(std::string_view option)
 const Parameter *
 FindByFlag(const std::string & flag)
 {
-  for (const Parameter & parameter : Parameters())
+  for (const Command & command : Commands())
   {
-    const std::string flags = "," + std::string(parameter.flags) + ",";
-    if (!parameter.flags.empty() && flags.find("," + flag + ",") != std::string::npos)
+    for (const Parameter & parameter : command.rows)
     {
-      return &parameter;
+      const std::string flags = "," + std::string(parameter.flags) + ",";
+      if (!parameter.flags.empty() && flags.find("," + flag + ",") != std::string::npos)
+      {
+        return &parameter;
+      }
     }
   }
   return nullptr;

@@ -68,12 +68,8 @@ BashCompletion()
     std::string flags = "--help";
     std::string values;
     bool        takesPaths = false;
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
-      if (!BelongsTo(parameter, command.id))
-      {
-        continue;
-      }
       const auto own = FlagsOf(parameter);
       flags += (own.empty() ? "" : " ") + Joined(own, " ");
       takesPaths = takesPaths || (own.empty() && IsPath(parameter));
@@ -117,12 +113,8 @@ ZshCompletion()
   {
     names += "    '" + std::string(command.name) + ":" + ZshText(command.description) + "'\n";
     cases += "      " + std::string(command.name) + ")\n        _arguments -s '--help[how to use it]'";
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
-      if (!BelongsTo(parameter, command.id))
-      {
-        continue;
-      }
       const auto  flags = FlagsOf(parameter);
       std::string value;
       if (parameter.kind != ParameterKind::Flag)

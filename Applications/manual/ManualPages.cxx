@@ -117,12 +117,8 @@ CommandManual(const Command & command)
   std::string                   synopsis = ".B voxelcore " + Roff(command.name) + "\n";
   std::string                   options;
   std::optional<ParameterGroup> group;
-  for (const Parameter & parameter : Parameters())
+  for (const Parameter & parameter : command.rows)
   {
-    if (!BelongsTo(parameter, command.id))
-    {
-      continue;
-    }
     if (group != parameter.group)
     {
       group = parameter.group;

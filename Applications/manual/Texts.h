@@ -1,7 +1,7 @@
 #pragma once
 // What the shell and `man` know of the program, all from the table behind its --help.
 
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
 #include <string>
 #include <string_view>

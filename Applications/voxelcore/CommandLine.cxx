@@ -6,7 +6,8 @@
 #include "voxelcore/Report/CoreReport.h"
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <utility>
+#include <vector>
 
 namespace voxelcore
 {
@@ -113,19 +114,16 @@ ParseCommandLine(int argc, char ** argv)
   app.formatter(std::make_shared<HelpFormatter>());
   app.set_help_flag("-h,--help", "Print this help");
   app.get_option("--version")->description("Print version, engines and libraries");
-  std::map<CommandId, CLI::App *> commands;
+  std::vector<std::pair<const Command *, CLI::App *>> commands;
   for (const Command & command : Commands())
   {
     CLI::App * sub = app.add_subcommand(std::string(command.name), std::string(command.description));
     sub->group("Commands")->footer("\n" + std::string(command.footer));
     sub->set_help_flag(); // added last: groups appear in the order of their first option
-    commands[command.id] = sub;
-    for (const Parameter & parameter : Parameters())
+    commands.emplace_back(&command, sub);
+    for (const Parameter & parameter : command.rows)
     {
-      if (BelongsTo(parameter, command.id))
-      {
-        AddParameter(*sub, parameter, line.values);
-      }
+      AddParameter(*sub, parameter, line.values);
     }
     sub->set_help_flag("-h,--help", "Print this help")->group(std::string(GroupHeading(ParameterGroup::Running)));
   }
@@ -167,14 +165,14 @@ ParseCommandLine(int argc, char ** argv)
     }
     throw UsageError(MessageOf(error) + helpHint);
   }
-  for (const auto & [id, sub] : commands)
+  for (const auto & [command, sub] : commands)
   {
     if (sub->parsed())
     {
-      line.command = id;
+      line.command = command;
     }
   }
-  if (!line.command)
+  if (line.command == nullptr)
   {
     throw UsageError("no command given" + helpHint);
   }

@@ -1,9 +1,8 @@
 #pragma once
 // The command line as the parameter table describes it.
 
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
-#include <optional>
 #include <string>
 
 namespace voxelcore
@@ -11,10 +10,10 @@ namespace voxelcore
 
 struct CommandLine
 {
-  std::optional<CommandId> command; ///< none: only `text` is to be printed
-  ParameterValues          values;
-  std::string              text;  ///< help or version
-  std::string              whole; ///< the command as a shell would take it again
+  const Command * command = nullptr; ///< null: only `text` is to be printed
+  ParameterValues values;
+  std::string     text;  ///< help or version
+  std::string     whole; ///< the command as a shell would take it again
 };
 
 /** \throws UsageError */

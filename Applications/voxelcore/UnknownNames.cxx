@@ -19,12 +19,8 @@ public:
   explicit Arguments(const Command & command)
     : m_Command(command)
   {
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
-      if (!BelongsTo(parameter, command.id))
-      {
-        continue;
-      }
       if (parameter.flags.empty())
       {
         m_Endless = m_Endless || parameter.kind == ParameterKind::Inputs;

@@ -1,7 +1,7 @@
 #pragma once
 // Finds mistyped commands and options before the parser does, which would say less.
 
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
 namespace voxelcore
 {

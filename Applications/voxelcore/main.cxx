@@ -1,11 +1,14 @@
 // The program voxelcore: parses, calls Options and its jobs, prints.
 
-#include "Commands.h"
+#include "CommandLine.h"
+#include "Console.h"
 #include "MainStack.h"
+#include "ProgressPrinter.h"
 #include "Signals.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/SystemCalls.h"
 #include "voxelcore/Cohort/Admission.h"
+#include "voxelcore/Cohort/Thumbnail.h"
 #include "voxelcore/Jobs/OutputNames.h"
 
 #include <chrono>
@@ -23,6 +26,16 @@ namespace
 {
 
 using namespace voxelcore; // NOLINT: a program speaks its library's language
+
+enum ExitCode
+{
+  kDone = 0,
+  kFailed = 1,
+  kUsage = 2,
+  kInput = 3,
+  kDisagreement = 4,
+  kInterrupted = 130
+};
 
 /** One line for each file, or for each folder of many; then the time, which tables of cores say themselves. */
 std::string
@@ -67,20 +80,47 @@ StyleOf(const CommandLine & line, bool quiet, const Console & console)
                                                                : ProgressPrinter::Style::None;
 }
 
-/** Whether the same command goes on from where this one stopped: batch does, and core and skeleton into a folder. */
 bool
 GoesOn(const CommandLine & line)
 {
-  return line.command == CommandId::Batch ||
-         ((line.command == CommandId::Core || line.command == CommandId::Skeleton) &&
-          IsFolderOutput(ValueOf(line.values, *line.command, "output")));
+  return line.command->resumes == Resumes::Always || (line.command->resumes == Resumes::IntoFolder &&
+                                                      IsFolderOutput(ValueOf(line.values, *line.command, "output")));
+}
+
+/** Prints what a command says. \returns an ExitCode \throws CertificateError where it disagrees */
+int
+Say(const Outcome & outcome, const std::string & written, const Console & console, bool quiet)
+{
+  std::string text = outcome.text;
+  for (const std::string & note : outcome.notes)
+  {
+    text += note + "\n";
+  }
+  if (!quiet)
+  {
+    for (const std::string & warning : outcome.warnings)
+    {
+      console.PrintError("warning: " + warning);
+    }
+    console.Print(text + written);
+  }
+  if (!outcome.disagreement.empty())
+  {
+    throw CertificateError(outcome.disagreement);
+  }
+  if (!outcome.failure.empty())
+  {
+    console.PrintError(outcome.failure);
+    return kFailed;
+  }
+  return kDone;
 }
 
 int
 Main(int argc, char ** argv, const Console & console, TemporaryRegistry & temporaries)
 {
   const CommandLine line = ParseCommandLine(argc, argv);
-  if (!line.command)
+  if (line.command == nullptr)
   {
     console.Print(line.text);
     return kDone;
@@ -90,7 +130,7 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
     SayThatIsLeft("what is done stays, and the same command goes on from there");
   }
   const bool quiet = line.values.contains("quiet");
-  const int  threads = ThreadsFrom(line.values, *line.command);
+  const int  threads = ThreadsFrom(line.values);
   if (threads > 0)
   {
     omp_set_num_threads(threads);
@@ -105,21 +145,22 @@ Main(int argc, char ** argv, const Console & console, TemporaryRegistry & tempor
   };
   std::vector<std::filesystem::path> written;
   context.wrote = [&written](const std::vector<std::filesystem::path> & files) { written = files; };
-  if (*line.command != CommandId::Batch)
+  if (!line.command->runsCases)
   {
     context.admit = AdmissionFromEnvironment(WasInterrupted);
   }
-  const auto start = std::chrono::steady_clock::now();
-  const Run  run{ line, console, context, printer, quiet, omp_get_max_threads() };
-  const int  code = RunCommand(run);
-  if (!written.empty())
-  {
-    const bool tableSaysTime = *line.command == CommandId::Core || *line.command == CommandId::Prune;
-    run.Print(WrittenText(written,
-                          !tableSaysTime,
-                          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()));
-  }
-  return code;
+  const auto paint = [&](const CoreReport & report) {
+    if (context.admit)
+    {
+      PaintCase(report, context.temporaries); // for the batch's page
+    }
+  };
+  const auto    start = std::chrono::steady_clock::now();
+  const Outcome outcome =
+    RunCommand(*line.command, { line.values, line.whole, omp_get_max_threads(), context, Commands(), paint });
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  printer.Clear();
+  return Say(outcome, written.empty() ? "" : WrittenText(written, !outcome.saysTime, taken.count()), console, quiet);
 }
 
 } // namespace

@@ -3,10 +3,12 @@
 
 #include "../voxelcore/Ending.h"
 #include "../voxelcore/MainStack.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
 #include <emscripten.h>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["isCancelled"]() ? 1 : 0; });
 
@@ -24,25 +26,28 @@ ParameterTable()
       table["commands"].push_back(
         { { "name", command.name }, { "description", command.description }, { "footer", command.footer } });
     }
-    for (const Parameter & parameter : Parameters())
+    std::map<std::pair<const char *, const char *>, std::size_t> there; // a row that commands share, by its texts
+    for (const Command & command : Commands())
     {
-      std::vector<std::string> of;
-      for (const Command & command : Commands())
+      for (const Parameter & parameter : command.rows)
       {
-        if (BelongsTo(parameter, command.id))
+        const auto [at, isNew] = there.emplace(std::pair(parameter.description.data(), parameter.defaultValue.data()),
+                                               table["options"].size());
+        if (!isNew)
         {
-          of.emplace_back(command.name);
+          table["options"][at->second]["commands"].push_back(command.name);
+          continue;
         }
+        table["options"].push_back({ { "name", parameter.name },
+                                     { "flags", parameter.flags },
+                                     { "kind", kinds[static_cast<int>(parameter.kind)] },
+                                     { "placeholder", parameter.placeholder },
+                                     { "default", parameter.defaultValue },
+                                     { "required", parameter.required },
+                                     { "commands", { command.name } },
+                                     { "description", parameter.description },
+                                     { "group", GroupHeading(parameter.group) } });
       }
-      table["options"].push_back({ { "name", parameter.name },
-                                   { "flags", parameter.flags },
-                                   { "kind", kinds[static_cast<int>(parameter.kind)] },
-                                   { "placeholder", parameter.placeholder },
-                                   { "default", parameter.defaultValue },
-                                   { "required", parameter.required },
-                                   { "commands", of },
-                                   { "description", parameter.description },
-                                   { "group", GroupHeading(parameter.group) } });
     }
     return table.dump();
   }();

@@ -46,6 +46,67 @@ function(voxelcore_module name)
   target_link_libraries(VoxelCore${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
+# voxelcore_command(Street Name): the street has the command of the constant k<Name>Command, of which
+# command/<Name>Command.cxx says options and run; voxelcore_extension(Street Name): the same of more options of another's
+# command, k<Name>Extension. voxelcore_commands() makes Commands() of all, VoxelCore::Commands.
+function(voxelcore_command street name)
+  voxelcore_registered(Command ${street} ${name})
+endfunction()
+function(voxelcore_extension street name)
+  voxelcore_registered(Extension ${street} ${name})
+endfunction()
+function(voxelcore_registered kind street name)
+  voxelcore_library(VoxelCore${name}${kind} command/${name}${kind}.cxx)
+  set(job VoxelCore::${street}Job)
+  if(NOT TARGET ${job})
+    set(job VoxelCore::${street})
+  endif()
+  target_link_libraries(VoxelCore${name}${kind} PUBLIC VoxelCore::Options ${job})
+  # GCC 12 sees overlapping copies in `"text" + std::string(...)` that are not there (its bug 105651).
+  target_compile_options(VoxelCore${name}${kind} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  set_property(GLOBAL APPEND PROPERTY VOXELCORE_${kind}s ${name})
+endfunction()
+
+function(voxelcore_commands)
+  set(declared "")
+  set(libraries "")
+  foreach(kind Command Extension)
+    get_property(names GLOBAL PROPERTY VOXELCORE_${kind}s)
+    foreach(name ${names})
+      string(APPEND declared "extern const ${kind} k${name}${kind};\n")
+      if(TARGET VoxelCore::${name}${kind})
+        list(APPEND libraries VoxelCore::${name}${kind})
+      endif()
+    endforeach()
+    list(TRANSFORM names REPLACE "(.+)" "&k\\1${kind}")
+    list(JOIN names ", " all${kind}s)
+  endforeach()
+  file(CONFIGURE OUTPUT Commands.cxx CONTENT [=[
+// All commands that streets have registered.
+
+#include "voxelcore/Options/AssembleCommands.h"
+
+#include <array>
+
+namespace voxelcore
+{
+
+@declared@
+std::span<const Command>
+Commands()
+{
+  static constexpr auto commands = std::to_array<const Command *>({ @allCommands@ });
+  static constexpr auto extensions = std::to_array<const Extension *>({ @allExtensions@ });
+  static const auto     all = AssembleCommands(commands, extensions);
+  return all;
+}
+
+} // namespace voxelcore
+]=] @ONLY)
+  voxelcore_library(VoxelCoreCommands "${CMAKE_CURRENT_BINARY_DIR}/Commands.cxx")
+  target_link_libraries(VoxelCoreCommands PUBLIC VoxelCore::Options ${libraries})
+endfunction()
+
 # voxelcore_tests(Name [LABEL Room] SOURCES aGTest.cxx ... LIBRARIES targets... [ENVIRONMENT A=b ...])
 # One test program a library; its tests carry the room's name as CTest label.
 # Tests of a suite whose name starts with Heavy (with parameters: Prefix/Heavy) carry the label heavy instead.

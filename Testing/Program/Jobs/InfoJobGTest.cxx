@@ -1,5 +1,6 @@
 #include "JobFolder.h"
 
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Jobs/InfoJob.h"
 #include "voxelcore/Shape/ShapeTopology.h"
 

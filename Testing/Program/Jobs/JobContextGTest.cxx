@@ -2,9 +2,12 @@
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
+#include "voxelcore/Compare/CompareCommand.h"
+#include "voxelcore/Phantom/PhantomCommand.h"
+#include "voxelcore/Vessels/StraightenCommand.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Jobs/JobContext.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Requests.h"
 
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -3,8 +3,9 @@
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Base/Error.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Requests.h"
 
 #include <gtest/gtest.h>
 

@@ -3,10 +3,11 @@
 #include "VoxelCoreTesting/TemporaryFolder.h"
 #include "VoxelCoreTesting/UnpackedVtp.h"
 
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Jobs/PruneJob.h"
 #include "voxelcore/Jobs/VerifyJob.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Requests.h"
 
 #include <gtest/gtest.h>
 

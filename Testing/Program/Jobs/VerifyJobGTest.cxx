@@ -1,5 +1,6 @@
 #include "JobFolder.h"
 
+#include "voxelcore/Thickness/ThicknessCommand.h"
 #include "voxelcore/Jobs/VerifyJob.h"
 #include "voxelcore/Models/MedialModel.h"
 #include "voxelcore/Thickness/ThicknessJob.h"

@@ -3,9 +3,10 @@
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
 
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Models/MedialModel.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Requests.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Base/Error.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Requests.h"
 #include "voxelcore/Report/SkeletonTexts.h"
 
 #include <algorithm>
@@ -30,12 +31,8 @@ TEST(ParameterTable, NamesAndFlagsAreUniqueWithinACommand)
     std::set<std::string_view> names;
     std::set<std::string_view> flags;
     bool                       optionsBegan = false;
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
-      if (!BelongsTo(parameter, command.id))
-      {
-        continue;
-      }
       EXPECT_TRUE(names.insert(parameter.name).second) << command.name << " " << parameter.name;
       EXPECT_TRUE(flags.insert(parameter.flags.empty() ? parameter.placeholder : parameter.flags).second)
         << command.name << " " << parameter.flags;
@@ -54,12 +51,15 @@ TEST(ParameterTable, NamesAndFlagsAreUniqueWithinACommand)
 TEST(ParameterTable, OptionsOfAGroupStandTogetherInTheOrderOfTheHeadings)
 {
   std::set<std::string_view> headings;
-  ParameterGroup             last = ParameterGroup::Input;
-  for (const Parameter & parameter : Parameters())
+  for (const Command & command : Commands())
   {
-    EXPECT_LE(last, parameter.group) << parameter.name;
-    last = parameter.group;
-    headings.insert(GroupHeading(parameter.group));
+    ParameterGroup last = ParameterGroup::Input;
+    for (const Parameter & parameter : command.rows)
+    {
+      EXPECT_LE(last, parameter.group) << command.name << " " << parameter.name;
+      last = parameter.group;
+      headings.insert(GroupHeading(parameter.group));
+    }
   }
   EXPECT_EQ(headings.size(), 14U);
 }
@@ -83,19 +83,15 @@ TEST(ParameterTable, DescriptionsNameOnlyOptionsTheirCommandHas)
   for (const Command & command : Commands())
   {
     std::set<std::string> own;
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
-      if (BelongsTo(parameter, command.id))
-      {
-        own.merge(OptionsNamedIn(parameter.flags));
-      }
+      own.merge(OptionsNamedIn(parameter.flags));
     }
-    for (const Parameter & parameter : Parameters())
+    for (const Parameter & parameter : command.rows)
     {
       for (const std::string & named : OptionsNamedIn(parameter.description))
       {
-        EXPECT_TRUE(!BelongsTo(parameter, command.id) || own.contains(named))
-          << command.name << " --help: " << parameter.flags << " speaks of " << named;
+        EXPECT_TRUE(own.contains(named)) << command.name << " --help: " << parameter.flags << " speaks of " << named;
       }
     }
   }

@@ -23,7 +23,7 @@ Options(ParameterValues values)
   values.emplace("inputs", "a.nrrd");
   values.emplace("output", "out/");
   values.emplace("memory", "1GB");
-  return BatchOptionsFrom(values);
+  return BatchOptionsFrom(values, Commands());
 }
 
 TEST(BatchJob, OptionsOfCasesAndOfTheBatchAreToldApart)
@@ -76,9 +76,9 @@ TEST(BatchJob, AmountsHaveUnits)
 
 TEST(BatchJob, WhatIsMissingIsAskedFor)
 {
-  EXPECT_THROW(BatchOptionsFrom({ { "inputs", "a.nrrd" }, { "output", "" } }), UsageError);
-  EXPECT_THROW(BatchOptionsFrom({ { "output", "out" } }), UsageError);
-  EXPECT_NO_THROW(BatchOptionsFrom({ { "output", "out" }, { "gather", "true" } }));
+  EXPECT_THROW(BatchOptionsFrom({ { "inputs", "a.nrrd" }, { "output", "" } }, Commands()), UsageError);
+  EXPECT_THROW(BatchOptionsFrom({ { "output", "out" } }, Commands()), UsageError);
+  EXPECT_NO_THROW(BatchOptionsFrom({ { "output", "out" }, { "gather", "true" } }, Commands()));
 }
 
 TEST(BatchJob, CasesAreListedByNumberFolderIdAndScan)

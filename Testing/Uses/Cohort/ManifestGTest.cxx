@@ -1,3 +1,4 @@
+#include "voxelcore/Options/Command.h"
 #include "voxelcore/Cohort/Manifest.h"
 
 #include "VoxelCoreTesting/TemporaryFolder.h"
@@ -21,7 +22,7 @@ protected:
   Read(const std::string & text)
   {
     WriteAll(m_Folder / "m.csv", text);
-    return ReadManifest(m_Folder / "m.csv");
+    return ReadManifest(m_Folder / "m.csv", OptionsOfCases(Commands()));
   }
   std::string
   Refusal(const std::string & text)
@@ -88,7 +89,7 @@ TEST_F(Manifest, MasksAreLookedForFromItsFolderAsScansAre)
   EXPECT_EQ(cases[3].values.at("within"), m_Folder / "roi");
   const std::filesystem::path before = std::filesystem::current_path();
   std::filesystem::current_path(m_Folder.Path());
-  const auto here = ReadManifest("m.csv");
+  const auto here = ReadManifest("m.csv", OptionsOfCases(Commands()));
   std::filesystem::current_path(before);
   EXPECT_EQ(here[0].values.at("within"), "m/roi.nrrd");
   EXPECT_EQ(here[2].values.at("within"), "2");
@@ -201,7 +202,7 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
   }
   std::map<std::string, std::filesystem::path> found;
   std::vector<std::filesystem::path>           passedOver;
-  for (const CohortCase & one : FindCases({ m_Folder.Path() }, {}, &passedOver))
+  for (const CohortCase & one : FindCases({ m_Folder.Path() }, {}, {}, &passedOver))
   {
     found[one.id] = std::filesystem::path(one.scan).lexically_relative(m_Folder.Path());
   }
@@ -216,12 +217,12 @@ TEST_F(Manifest, FoldersAreSearchedAndScansOfOneNameToldApart)
                                                            { "stores/cells", "stores/cells.zarr" } }));
   EXPECT_EQ(passedOver,
             (std::vector<std::filesystem::path>{ m_Folder / "stack/thumbs.db", m_Folder / "two/readme.docx" }));
-  EXPECT_EQ(FindCases({ m_Folder / "*/seg.*" }).size(), 2U);
-  EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }).size(), 3U); // the same file twice
-  EXPECT_EQ(FindCases({ m_Folder / "stores/cells.zarr/" }).size(), 1U);
-  EXPECT_THROW(FindCases({ m_Folder / "none*" }), InputError);
+  EXPECT_EQ(FindCases({ m_Folder / "*/seg.*" }, {}).size(), 2U);
+  EXPECT_EQ(FindCases({ m_Folder / "two", m_Folder / "two/seg.nrrd" }, {}).size(), 3U); // the same file twice
+  EXPECT_EQ(FindCases({ m_Folder / "stores/cells.zarr/" }, {}).size(), 1U);
+  EXPECT_THROW(FindCases({ m_Folder / "none*" }, {}), InputError);
   std::filesystem::create_directory(m_Folder / "empty");
-  EXPECT_THROW(FindCases({ m_Folder / "empty" }), InputError);
+  EXPECT_THROW(FindCases({ m_Folder / "empty" }, {}), InputError);
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "voxelcore/Compare/CompareCommand.h"
 #include "voxelcore/Compare/CompareJob.h"
 
 #include "Program/Jobs/JobFolder.h"

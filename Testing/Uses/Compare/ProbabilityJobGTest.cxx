@@ -1,3 +1,4 @@
+#include "voxelcore/Compare/ProbabilityExtension.h"
 #include "voxelcore/Compare/ProbabilityJob.h"
 
 #include "Program/Jobs/JobFolder.h"
@@ -54,7 +55,7 @@ protected:
   Run(const std::string & map, const std::string & output, ParameterValues more = {}) const
   {
     more.insert({ { "probability", "true" }, { "scan", At(map) }, { "output", At(output) }, { "force", "true" } });
-    return RunProbabilityJob(*ProbabilityOptionsFrom(more));
+    return RunProbabilityJob(ProbabilityOptionsFrom(more));
   }
   void
   ExpectRefused(const std::string & map, const std::string & why, ParameterValues more = {}) const
@@ -170,8 +171,8 @@ TEST_F(ProbabilityJob, WhatIsNoMapIsRefusedAndNothingIsWritten)
   ExpectRefused("map.nrrd", "leave out --binary", { { "binary", "true" } });
   ExpectRefused("map.nrrd", "written as .vtp", { { "output", At("folder/") } });
   ExpectRefused("map.nrrd", "no voxel lies", { { "thresholds", "0.98,0.99" } });
-  EXPECT_THROW(ProbabilityOptionsFrom({ { "scan", "a.nrrd" }, { "output", "b.vtp" }, { "thresholds", "0.5" } }),
-               UsageError);
+  EXPECT_THROW(kProbabilityExtension.isAsked({ { "scan", "a.nrrd" }, { "thresholds", "0.5" } }), UsageError);
+  EXPECT_FALSE(kProbabilityExtension.isAsked({ { "scan", "a.nrrd" } }));
 }
 
 TEST_F(ProbabilityJob, TheTableOfThresholdsSaysWhatWasFound)

@@ -1,3 +1,4 @@
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Compare/TreeFiles.h"
 
 #include "CompareGraphs.h"

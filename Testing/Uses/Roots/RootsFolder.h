@@ -2,6 +2,7 @@
 
 #include "Program/Jobs/JobFolder.h"
 
+#include "voxelcore/Roots/RootsCommand.h"
 #include "voxelcore/Roots/RootsJob.h"
 
 #include <filesystem>

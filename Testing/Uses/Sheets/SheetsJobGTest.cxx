@@ -1,5 +1,6 @@
 #include "Program/Jobs/JobFolder.h"
 
+#include "voxelcore/Sheets/SheetsCommand.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Jobs/RenderJob.h"
 #include "voxelcore/Models/PlainSurface.h"

@@ -3,6 +3,7 @@
 
 #include "Program/Jobs/JobFolder.h"
 
+#include "voxelcore/Thickness/ThicknessCommand.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Thickness/ThicknessJob.h"
 

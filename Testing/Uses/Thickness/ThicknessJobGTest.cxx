@@ -1,5 +1,6 @@
 #include "ThicknessFolder.h"
 
+#include "voxelcore/Phantom/PhantomCommand.h"
 #include "voxelcore/Jobs/RenderJob.h"
 #include "voxelcore/Models/PlainSurface.h"
 #include "voxelcore/Thickness/VoxelHull.h"

@@ -2,6 +2,8 @@
 
 #include "VoxelCoreTesting/Threads.h"
 
+#include "voxelcore/Phantom/PhantomCommand.h"
+#include "voxelcore/Vessels/StraightenCommand.h"
 #include "voxelcore/Imaging/GreyVolume.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/Report/CsvText.h"

@@ -1,287 +1,71 @@
 #include "voxelcore/Options/Parameters.h"
 
-#include "FieldReader.h"
-#include "ParameterReader.h"
-#include "voxelcore/Base/Error.h"
-#include "voxelcore/Certified/Certified.h"
-#include "voxelcore/Jobs/CostModel.h"
-#include "voxelcore/Jobs/OutputNames.h"
-#include "voxelcore/Jobs/ReadInput.h"
-#include "voxelcore/Report/SkeletonTexts.h"
-
-#include <vector>
+#include "voxelcore/Options/ParameterReader.h"
 
 namespace voxelcore
 {
 
-std::string
-ValueOf(const ParameterValues & values, CommandId command, std::string_view name)
+std::string_view
+GroupHeading(ParameterGroup group)
 {
-  return ParameterReader(values, command).Text(name);
+  switch (group)
+  {
+    case ParameterGroup::Input:
+      return "Input";
+    case ParameterGroup::Output:
+      return "Output";
+    case ParameterGroup::Pruning:
+      return "Pruning";
+    case ParameterGroup::ShapeEdits:
+      return "Shape edits";
+    case ParameterGroup::Refinement:
+      return "Refinement";
+    case ParameterGroup::Skeleton:
+      return "Skeleton";
+    case ParameterGroup::Picture:
+      return "Picture";
+    case ParameterGroup::Cohort:
+      return "Cohort";
+    case ParameterGroup::Phantom:
+      return "Phantom";
+    case ParameterGroup::Roots:
+      return "Roots";
+    case ParameterGroup::Thickness:
+      return "Thickness and sheets";
+    case ParameterGroup::Straightening:
+      return "Straightening";
+    case ParameterGroup::Comparison:
+      return "Comparison";
+    case ParameterGroup::Running:
+      break;
+  }
+  return "Running";
 }
 
 std::string
-ChoiceOf(const ParameterValues & values, CommandId command, std::string_view name)
+KeywordOf(const Parameter & parameter)
 {
-  return ParameterReader(values, command).Choice(name);
+  if (!parameter.keyword.empty())
+  {
+    return parameter.keyword == "-" ? std::string() : std::string(parameter.keyword);
+  }
+  const bool isFile = parameter.kind == ParameterKind::Input || parameter.kind == ParameterKind::Output;
+  const bool isNamedAlike =
+    parameter.group == ParameterGroup::Pruning || parameter.group == ParameterGroup::ShapeEdits ||
+    parameter.group == ParameterGroup::Refinement || parameter.group == ParameterGroup::Skeleton ||
+    parameter.group == ParameterGroup::Thickness || parameter.group == ParameterGroup::Comparison;
+  return isNamedAlike && !isFile && !parameter.flags.empty() ? WithUnderscores(parameter.name) : std::string();
 }
 
-int
-ThreadsFrom(const ParameterValues & values, CommandId command)
+std::string
+WithoutFormerName(std::string argument)
 {
-  return static_cast<int>(ParameterReader(values, command).Whole("threads", 0, 4096));
-}
-
-namespace
-{
-
-/** `--lambda` and `--tolerance`, of which the latter makes the former a floor. */
-void
-ReadPruning(const ParameterReader & reader, std::vector<Lambda> & lambdas, std::vector<Tolerance> & tolerances)
-{
-  if (reader.IsGiven("tolerance"))
+  constexpr std::string_view former = "--bumps";
+  if (argument == former || argument.starts_with("--bumps="))
   {
-    tolerances = ParseTolerances(reader.Text("tolerance"));
+    argument.replace(0, former.size(), "--tolerance");
   }
-  if (reader.IsGiven("lambda"))
-  {
-    lambdas = ParseLambdas(reader.Text("lambda"));
-  }
-  CompletePruning(lambdas, tolerances);
-  if (!tolerances.empty() && lambdas.size() > 1)
-  {
-    throw UsageError("--lambda " + reader.Text("lambda") + ": expected one value, the floor of --tolerance");
-  }
-}
-
-} // namespace
-
-DisplayTargets
-DisplayTargetsFrom(const ParameterValues & values, CommandId command)
-{
-  const ParameterReader reader(values, command);
-  DisplayTargets        targets;
-  targets.scene = reader.FileIfGiven("scene");
-  targets.html = reader.FileIfGiven("html");
-  targets.htmlTriangles = static_cast<std::size_t>(reader.Whole("html-triangles", 1000, 20000000));
-  return targets;
-}
-
-std::vector<std::int64_t>
-ResolutionsFrom(const ParameterValues & values, CommandId command)
-{
-  const ParameterReader reader(values, command);
-  return reader.IsGiven("resolution") ? ParseResolutions(reader.Text("resolution")) : std::vector<std::int64_t>();
-}
-
-VoxelizeJobOptions
-VoxelizeOptionsFrom(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Voxelize);
-  VoxelizeJobOptions    options;
-  options.mesh = reader.Text("mesh");
-  options.resolutions = ResolutionsFrom(values, CommandId::Voxelize);
-  if (reader.IsGiven("spacing"))
-  {
-    options.spacing = reader.Spacing();
-  }
-  if (options.resolutions.empty() != options.spacing.has_value())
-  {
-    throw UsageError("give either --resolution (voxels along the longest side) or --spacing (voxel size in mm)");
-  }
-  options.reading = { reader.IsSet("cap"), reader.IsSet("cover") };
-  options.output = reader.File("output");
-  options.report = reader.FileIfGiven("report");
-  options.force = reader.IsSet("force");
-  return options;
-}
-
-RefineOptions
-RefineFrom(const ParameterReader & reader, const std::string & usual)
-{
-  RefineOptions     refine;
-  const std::string surface = reader.Choice("refine");
-  refine.surface = surface == "off" ? std::string() : surface == "auto" ? usual : surface;
-  if (reader.IsGiven("grey") != reader.IsGiven("grey-range"))
-  {
-    throw UsageError("give --grey SCAN and --grey-range LO:HI together");
-  }
-  if (reader.IsGiven("grey"))
-  {
-    if (surface != "grey")
-    {
-      throw UsageError("--grey needs --refine grey");
-    }
-    refine.grey = reader.Text("grey");
-    refine.greyRange = reader.Range("grey-range");
-  }
-  return refine;
-}
-
-CoreOptions
-CoreOptionsWithoutFiles(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Core);
-  CoreOptions           options;
-  ReadScanFields(reader, options);
-  ReadPruning(reader, options.lambdas, options.tolerances);
-  options.refine = RefineFrom(reader, RefinesUsually(options.tolerances) ? "labels" : "");
-  VisitModelFields(options.model, FieldReader(reader));
-  const std::string engine = reader.Choice("engine");
-  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
-  options.crossCheck = reader.IsSet("cross-check");
-  options.threads = ThreadsFrom(values, CommandId::Core);
-  options.further = FurtherOptions(reader);
-  return options;
-}
-
-CoreOptions
-CoreOptionsFrom(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Core);
-  CoreOptions           options = CoreOptionsWithoutFiles(values);
-  options.scan = reader.Text("scan");
-  options.output = reader.File("output");
-  options.report = reader.FileIfGiven("report");
-  options.table = reader.FileIfGiven("table");
-  options.display = DisplayTargetsFrom(values, CommandId::Core);
-  options.skeleton = CoreSkeletonFrom(values);
-  if (options.skeleton)
-  {
-    // Where nothing is said it is the one that `skeleton` gives.
-    options.skeleton->refined = !options.refine.surface.empty() && reader.Choice("refine") != "auto";
-  }
-  options.skeletonTargets = TargetsFrom(values, CommandId::Core);
-  options.skeletonOutput = options.skeleton ? SkeletonBesideCore(options.output) : std::filesystem::path();
-  options.join = reader.Text("join");
-  if (options.crossCheck && !options.join.empty())
-  {
-    throw UsageError("give only one of --cross-check and --join");
-  }
-  if (reader.IsGiven("memory"))
-  {
-    options.memory = ParseMemory(reader.Text("memory"));
-  }
-  options.force = reader.IsSet("force");
-  return options;
-}
-
-std::optional<BlockOptions>
-BlockOptionsFrom(const ParameterValues & values)
-{
-  constexpr std::int64_t most = std::int64_t{ 1 } << 20U;
-  const ParameterReader  reader(values, CommandId::Core);
-  const bool             isGrid = reader.IsGiven("block-size");
-  if (isGrid && reader.IsGiven("blocks"))
-  {
-    throw UsageError("give only one of --blocks and --block-size");
-  }
-  if ((isGrid || reader.IsGiven("blocks")) != reader.IsGiven("block"))
-  {
-    throw UsageError("give --blocks N and --block K together, or --block-size N and --block K");
-  }
-  if (!reader.IsGiven("block"))
-  {
-    return std::nullopt;
-  }
-  if (ResolutionsFrom(values, CommandId::Core).size() > 1)
-  {
-    throw UsageError("--resolution " + reader.Text("resolution") + ": expected one value with --blocks");
-  }
-  if (reader.IsGiven("join"))
-  {
-    throw UsageError("give only one of --block and --join");
-  }
-  BlockOptions options;
-  options.core = CoreOptionsFrom(values);
-  if (const std::string refine = reader.Choice("refine"); refine != "auto" && refine != "off")
-  {
-    throw UsageError("--refine " + refine + " does not work with --block: blocks are exact; give it with --join");
-  }
-  options.core.refine = RefineOptions();
-  if (isGrid)
-  {
-    options.side = static_cast<std::int32_t>(reader.Whole("block-size", 8, most));
-  }
-  else
-  {
-    options.blocks = static_cast<std::size_t>(reader.Whole("blocks", 1, most));
-  }
-  options.block = static_cast<std::size_t>(reader.Whole("block", 1, most));
-  return options;
-}
-
-InfoOptions
-InfoOptionsFrom(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Info);
-  InfoOptions           options;
-  options.scan = reader.Text("scan");
-  ReadScanFields(reader, options);
-  ReadPruning(ParameterReader({}, CommandId::Core), options.coreLambdas, options.coreTolerances);
-  options.coreRefined = RefinesUsually(options.coreTolerances);
-  options.skeletonLambdas = ParseLambdas(ValueOf({}, CommandId::Skeleton, "lambda"));
-  options.skeletonBorder = ParseBorder(ValueOf({}, CommandId::Skeleton, "border"));
-  return options;
-}
-
-VerifyOptions
-VerifyOptionsFrom(const ParameterValues & values)
-{
-  return { ValueOf(values, CommandId::Verify, "scan"), ValueOf(values, CommandId::Verify, "core") };
-}
-
-PruneOptions
-PruneOptionsWithoutFiles(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Prune);
-  PruneOptions          options;
-  if (reader.IsGiven("tolerance") == reader.IsGiven("lambda"))
-  {
-    throw UsageError("give either --lambda or --tolerance, such as --lambda 1.5mm or --tolerance 1.2diag");
-  }
-  if (reader.IsGiven("tolerance"))
-  {
-    options.tolerances = ParseTolerances(reader.Text("tolerance"));
-  }
-  else
-  {
-    options.lambdas = ParseLambdas(reader.Text("lambda"));
-  }
-  VisitModelFields(options.model, FieldReader(reader));
-  options.threads = ThreadsFrom(values, CommandId::Prune);
-  return options;
-}
-
-PruneOptions
-PruneOptionsFrom(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Prune);
-  PruneOptions          options = PruneOptionsWithoutFiles(values);
-  options.core = reader.Text("core");
-  options.output = reader.File("output");
-  options.report = reader.FileIfGiven("report");
-  options.force = reader.IsSet("force");
-  return options;
-}
-
-ReconstructOptions
-ReconstructOptionsFrom(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Reconstruct);
-  ReconstructOptions    options;
-  options.core = reader.Text("core");
-  for (auto [name, path] : { std::pair("like", &options.like), std::pair("scan", &options.scan) })
-  {
-    if (reader.IsGiven(name))
-    {
-      *path = reader.Text(name);
-    }
-  }
-  options.output = reader.File("output");
-  options.report = reader.FileIfGiven("report");
-  options.force = reader.IsSet("force");
-  return options;
+  return argument;
 }
 
 } // namespace voxelcore

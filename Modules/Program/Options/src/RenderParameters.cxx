@@ -1,7 +1,8 @@
 // The options of `voxelcore render`.
 
-#include "ParameterReader.h"
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Options/ParameterReader.h"
+#include "voxelcore/Options/Requests.h"
 
 #include <array>
 #include <cmath>
@@ -55,7 +56,7 @@ ReadColorRange(const ParameterReader & reader, RenderJobOptions & options)
 RenderJobOptions
 RenderOptionsFrom(const ParameterValues & values)
 {
-  const ParameterReader reader(values, CommandId::Render);
+  const ParameterReader reader(values, kRenderCommand);
   RenderJobOptions      options;
   for (const std::string & file : SplitText(reader.Text("files"), '\n'))
   {

@@ -1,11 +1,10 @@
-#include "FieldReader.h"
-#include "ParameterReader.h"
-#include "SkeletonValues.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Jobs/OutputNames.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/FieldReader.h"
+#include "voxelcore/Options/SharedRows.h"
+#include "voxelcore/Options/SharedValues.h"
 #include "voxelcore/Report/SkeletonTexts.h"
 
 #include <algorithm>
@@ -35,9 +34,9 @@ ParseLength(const std::string & text)
 }
 
 Lambda
-LengthFrom(const ParameterValues & values, CommandId command, std::string_view name)
+LengthFrom(const ParameterReader & reader, std::string_view name)
 {
-  return ParameterReader(values, command).Parsed(name, ParseLength);
+  return reader.Parsed(name, ParseLength);
 }
 
 /** Fills pruneLength or pruneRadii from "5mm", "8vox", "2%" or "1.5r". */
@@ -65,10 +64,10 @@ ParseBranchLimit(const std::string & text, BranchRequest & options)
 }
 
 BranchRequest
-PruningFrom(const ParameterValues & values, CommandId command)
+PruningFrom(const ParameterReader & reader)
 {
   BranchRequest options;
-  if (const std::string limit = ValueOf(values, command, "prune-branches"); !limit.empty())
+  if (const std::string limit = reader.Text("prune-branches"); !limit.empty())
   {
     ParseBranchLimit(limit, options);
   }
@@ -76,12 +75,12 @@ PruningFrom(const ParameterValues & values, CommandId command)
 }
 
 BranchRequest
-BranchRequestFrom(const ParameterValues & values, CommandId command)
+BranchRequestFrom(const ParameterReader & reader)
 {
-  BranchRequest options = PruningFrom(values, command);
-  options.cutLoops = values.contains("cut-loops");
-  options.splitAtJunctions = values.contains("split-at-junctions");
-  options.root = ParseRoot(ValueOf(values, command, "root"));
+  BranchRequest options = PruningFrom(reader);
+  options.cutLoops = reader.IsGiven("cut-loops");
+  options.splitAtJunctions = reader.IsGiven("split-at-junctions");
+  options.root = ParseRoot(reader.Text("root"));
   return options;
 }
 
@@ -105,36 +104,34 @@ constexpr std::array<const char *, 8> kStageOptions{ "stand-out",      "plates",
 
 /** All but lambda. */
 SkeletonRequest
-StageFrom(const ParameterValues & values, CommandId command)
+StageFrom(const ParameterReader & reader)
 {
-  SkeletonRequest stage = BurningFrom(values, command);
-  if (values.contains("plates"))
+  SkeletonRequest stage = BurningFrom(reader);
+  if (reader.IsGiven("plates"))
   {
-    stage.plates = LengthFrom(values, command, "plates");
+    stage.plates = LengthFrom(reader, "plates");
   }
-  stage.branches = BranchRequestFrom(values, command);
+  stage.branches = BranchRequestFrom(reader);
   return stage;
 }
 
 } // namespace
 
 void
-RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input, CommandId command)
+RefuseScanOptions(const ParameterValues & values, const std::filesystem::path & input, const Command & command)
 {
-  for (const Parameter & parameter : Parameters())
+  constexpr std::array<std::string_view, 7> others{ "lambda", "tolerance",  "engine", "refine",
+                                                    "grey",   "grey-range", "border" };
+  for (const Parameter & parameter : command.rows)
   {
-    const bool ofScans =
-      BelongsTo(parameter, command) &&
-      (BelongsTo(parameter, CommandId::Info) || parameter.name == "lambda" || parameter.name == "tolerance" ||
-       parameter.name == "engine" || parameter.name == "refine" || parameter.name == "grey" ||
-       parameter.name == "grey-range" || parameter.name == "border" || parameter.name == "cavities") &&
-      parameter.name != "scan" && parameter.name != "threads" && parameter.name != "progress" &&
-      parameter.name != "quiet";
+    const bool ofScans = (FindParameter(kInfoCommand.rows, parameter.name) != nullptr ||
+                          ranges::find(others, parameter.name) != others.end()) &&
+                         parameter.name != "scan" && FindParameter(table::kRunRows, parameter.name) == nullptr;
     if (ofScans && values.contains(parameter.name))
     {
       throw UsageError("--" + std::string(parameter.name) + ": needs a scan, but " + input.string() +
                        " is a medial surface; give the option to 'voxelcore core', or the scan to 'voxelcore " +
-                       std::string(ranges::find(Commands(), command, &Command::id)->name) + "'");
+                       std::string(command.name) + "'");
     }
   }
 }
@@ -146,45 +143,39 @@ BorderFrom(const ParameterReader & reader)
 }
 
 SkeletonRequest
-BurningFrom(const ParameterValues & values, CommandId command)
+BurningFrom(const ParameterReader & reader)
 {
   SkeletonRequest stage;
-  stage.standOut = LengthFrom(values, command, "stand-out");
-  stage.smooth = LengthFrom(values, command, "smooth");
-  stage.branches = PruningFrom(values, command);
+  stage.standOut = LengthFrom(reader, "stand-out");
+  stage.smooth = LengthFrom(reader, "smooth");
+  stage.branches = PruningFrom(reader);
   return stage;
 }
 
 SkeletonTargets
-TargetsFrom(const ParameterValues & values, CommandId command)
+TargetsFrom(const ParameterValues & values, const Command & command)
 {
-  SkeletonTargets targets;
+  const ParameterReader reader(values, command);
+  SkeletonTargets       targets;
   targets.units = values.contains("units");
   if (values.contains("also"))
   {
-    targets.also = ParseAlso(ValueOf(values, command, "also"));
+    targets.also = ParseAlso(reader.Text("also"));
   }
   if (values.contains("sections"))
   {
-    const std::string apart = ValueOf(values, command, "sections");
-    targets.sections = apart == "all" ? Lambda() : LengthFrom(values, command, "sections");
+    const std::string apart = reader.Text("sections");
+    targets.sections = apart == "all" ? Lambda() : LengthFrom(reader, "sections");
     if (apart != "all" && !(targets.sections->value > 0))
     {
       throw UsageError("--sections " + apart + ": expected all, or a distance above 0 such as 1mm or 2vox");
     }
   }
-  const ParameterReader reader(values, command);
-  if (command == CommandId::Skeleton)
-  {
-    targets.branchMap = reader.FileIfGiven("branch-map");
-    targets.orderMap = reader.FileIfGiven("order-map");
-    targets.skeletonMap = reader.FileIfGiven("skeleton-map");
-  }
-  if (command != CommandId::Core)
-  {
-    targets.centerlines = reader.FileIfGiven("centerlines");
-    targets.flow = reader.FileIfGiven("flow");
-  }
+  targets.branchMap = reader.FileIfGiven("branch-map");
+  targets.orderMap = reader.FileIfGiven("order-map");
+  targets.skeletonMap = reader.FileIfGiven("skeleton-map");
+  targets.centerlines = reader.FileIfGiven("centerlines");
+  targets.flow = reader.FileIfGiven("flow");
   if (values.contains("soma"))
   {
     const std::string text = reader.Text("soma");
@@ -215,9 +206,9 @@ CoreSkeletonFrom(const ParameterValues & values)
 {
   if (values.contains("with-skeleton"))
   {
-    SkeletonRequest stage = StageFrom(values, CommandId::Core);
+    SkeletonRequest stage = StageFrom(ParameterReader(values, kCoreCommand));
     stage.lambda = ParseLength("0");
-    const auto also = TargetsFrom(values, CommandId::Core).also;
+    const auto also = TargetsFrom(values, kCoreCommand).also;
     if (std::find(also.begin(), also.end(), "ma") != also.end())
     {
       throw UsageError("--also ma: use -o OUT.ma, or 'voxelcore skeleton' for a file of radii, too");
@@ -237,30 +228,30 @@ CoreSkeletonFrom(const ParameterValues & values)
 SkeletonRequest
 SkeletonRequestFrom(const ParameterValues & values)
 {
-  SkeletonRequest stage = StageFrom(values, CommandId::Skeleton);
-  stage.border = BorderFrom(ParameterReader(values, CommandId::Skeleton));
+  const ParameterReader reader(values, kSkeletonCommand);
+  SkeletonRequest       stage = StageFrom(reader);
+  stage.border = BorderFrom(reader);
   return stage;
 }
 
 SkeletonOptions
 SkeletonOptionsFrom(const ParameterValues & values)
 {
-  constexpr CommandId   command = CommandId::Skeleton;
-  const ParameterReader reader(values, command);
+  const ParameterReader reader(values, kSkeletonCommand);
   SkeletonOptions       options;
   options.input = reader.Text("scan");
   if (options.input.extension() == ".vtp" && !reader.FirstResolution())
   {
-    RefuseScanOptions(values, options.input, command);
+    RefuseScanOptions(values, options.input, kSkeletonCommand);
   }
   ReadScanFields(reader, options);
   ReadCavities(reader, options.edits);
   options.further = FurtherOptions(reader);
   options.stage = SkeletonRequestFrom(values);
-  options.stage.lambda = LengthFrom(values, command, "lambda");
+  options.stage.lambda = LengthFrom(reader, "lambda");
   options.refine = RefineFrom(reader);
   options.stage.refined = !options.refine.surface.empty();
-  options.targets = TargetsFrom(values, command);
+  options.targets = TargetsFrom(values, kSkeletonCommand);
   options.stage.network = values.contains("network");
   options.targets.network = options.stage.network;
   if (options.stage.network)
@@ -276,78 +267,38 @@ SkeletonOptionsFrom(const ParameterValues & values)
   }
   if (values.contains("tolerance"))
   {
-    const auto heights = ParseTolerances(ValueOf(values, command, "tolerance"));
+    const auto heights = ParseTolerances(reader.Text("tolerance"));
     if (heights.size() > 1)
     {
-      throw UsageError("--tolerance " + ValueOf(values, command, "tolerance") + ": expected one value");
+      throw UsageError("--tolerance " + reader.Text("tolerance") + ": expected one value");
     }
     options.stage.tolerance = heights.front().value > 0 ? std::optional(heights.front()) : std::nullopt;
   }
   options.output = reader.File("output");
   options.report = reader.FileIfGiven("report");
   options.targets.table = reader.FileIfGiven("table");
-  options.display = DisplayTargetsFrom(values, command);
-  const std::string engine = ChoiceOf(values, command, "engine");
-  options.engine = engine == "tetgen" ? Engine::TetGen : engine == "lattice" ? Engine::Lattice : Engine::Auto;
-  options.threads = ThreadsFrom(values, command);
+  options.display = DisplayTargetsFrom(values);
+  options.engine = EngineFrom(reader);
+  options.threads = ThreadsFrom(values);
   options.force = values.contains("force");
-  return options;
-}
-
-std::optional<ProbabilityOptions>
-ProbabilityOptionsFrom(const ParameterValues & values)
-{
-  const ParameterReader reader(values, CommandId::Skeleton);
-  if (!reader.IsSet("probability"))
-  {
-    for (const char * option : { "thresholds", "persistence" })
-    {
-      if (reader.IsGiven(option))
-      {
-        throw UsageError("--" + std::string(option) + ": needs --probability");
-      }
-    }
-    return std::nullopt;
-  }
-  for (const char * other : { "labels",
-                              "binary",
-                              "threshold",
-                              "network",
-                              "split-components",
-                              "split-at-junctions",
-                              "resolution",
-                              "sections" })
-  {
-    if (reader.IsGiven(other))
-    {
-      throw UsageError("--probability takes a map at --thresholds; leave out --" + std::string(other));
-    }
-  }
-  ProbabilityOptions options{ SkeletonOptionsFrom(values), ParseThresholds(reader.Text("thresholds")), 0 };
-  const auto         persistence = ParseReal(reader.Text("persistence"));
-  if (!persistence || !(*persistence >= 0 && *persistence <= 1))
-  {
-    reader.ThrowUsageError("persistence", "a number from 0 to 1");
-  }
-  options.persistence = *persistence;
   return options;
 }
 
 BranchRequest
 MeasureBranchesFrom(const ParameterValues & values)
 {
-  return BranchRequestFrom(values, CommandId::Measure);
+  return BranchRequestFrom(ParameterReader(values, kMeasureCommand));
 }
 
 MeasureJobOptions
 MeasureOptionsFrom(const ParameterValues & values)
 {
-  constexpr CommandId command = CommandId::Measure;
-  return { ValueOf(values, command, "skeleton"),
-           BranchRequestFrom(values, command),
-           TargetsFrom(values, command),
-           ParameterReader(values, command).File("output"),
-           values.contains("force") };
+  const ParameterReader reader(values, kMeasureCommand);
+  return { reader.Text("skeleton"),
+           BranchRequestFrom(reader),
+           TargetsFrom(values, kMeasureCommand),
+           reader.File("output"),
+           reader.IsGiven("force") };
 }
 
 } // namespace voxelcore

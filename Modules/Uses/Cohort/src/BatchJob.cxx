@@ -63,7 +63,7 @@ NumberWithUnit(const std::string & option, const std::string & text, const std::
 std::size_t
 CountFrom(const ParameterValues & values, std::string_view name, std::size_t most)
 {
-  const std::string text = ValueOf(values, CommandId::Batch, name);
+  const std::string text = ValueOf(values, kBatchCommand, name);
   std::size_t       value = 0;
   const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value > most)
@@ -197,17 +197,18 @@ AddLost(const std::vector<FailedCase> & lost, const std::vector<CohortCase> & ca
 } // namespace
 
 BatchOptions
-BatchOptionsFrom(const ParameterValues & values)
+BatchOptionsFrom(const ParameterValues & values, std::span<const Command> commands)
 {
   BatchOptions options;
-  const auto   inputs = values.find("inputs");
+  options.commands = commands;
+  const auto inputs = values.find("inputs");
   for (std::size_t at = 0; inputs != values.end() && at < inputs->second.size();)
   {
     const std::size_t end = std::min(inputs->second.find('\n', at), inputs->second.size());
     options.inputs.emplace_back(inputs->second.substr(at, end - at));
     at = end + 1;
   }
-  options.output = ValueOf(values, CommandId::Batch, "output");
+  options.output = ValueOf(values, kBatchCommand, "output");
   if (options.output.empty())
   {
     throw UsageError("--output: expected a folder");
@@ -216,7 +217,7 @@ BatchOptionsFrom(const ParameterValues & values)
   {
     options.output = options.output.parent_path();
   }
-  for (const Parameter & parameter : Parameters())
+  for (const Parameter & parameter : OptionsOfCases(commands))
   {
     const auto value = values.find(parameter.name);
     if (DescribesACase(parameter) && value != values.end())
@@ -226,40 +227,41 @@ BatchOptionsFrom(const ParameterValues & values)
   }
   const auto cores = std::max<std::size_t>(1, std::thread::hardware_concurrency());
   const auto jobs = CountFrom(values, "jobs", 4096);
-  const auto threads = static_cast<std::size_t>(ThreadsFrom(values, CommandId::Batch));
+  const auto threads = static_cast<std::size_t>(ThreadsFrom(values));
   options.jobs = static_cast<int>(jobs > 0 ? jobs : cores);
   options.threads =
     static_cast<int>(threads > 0 ? threads : std::max<std::size_t>(1, cores / static_cast<std::size_t>(options.jobs)));
-  const std::string memory = ValueOf(values, CommandId::Batch, "memory");
+  const std::string memory = ValueOf(values, kBatchCommand, "memory");
   options.memoryMb =
     memory.empty() ? MemoryThereIsMb()
                    : NumberWithUnit("--memory",
                                     memory,
                                     std::array<Unit, 4>{
                                       { { "MB", 1 }, { "GB", 1e3 }, { "MiB", 1.048576 }, { "GiB", 1073.741824 } } });
-  const std::string timeout = ValueOf(values, CommandId::Batch, "timeout");
+  const std::string timeout = ValueOf(values, kBatchCommand, "timeout");
   options.timeout =
     timeout.empty()
       ? 0
       : NumberWithUnit("--timeout", timeout, std::array<Unit, 3>{ { { "s", 1 }, { "m", 60 }, { "h", 3600 } } });
   options.skeletons = !values.contains("no-skeleton");
-  for (const CommandId command : { CommandId::Roots, CommandId::Thickness })
+  for (const Command & command : commands)
   {
-    if (!values.contains(CommandName(command)))
+    if (command.asCase == nullptr || (!IsUsual(command) && !values.contains(command.name)))
     {
       continue;
     }
-    if (options.command != CommandId::Core)
+    const std::string flag(command.asCase->flag);
+    if (options.command != nullptr && !IsUsual(*options.command))
     {
-      throw UsageError("--roots does not go with --thickness");
+      throw UsageError(std::string(options.command->asCase->flag) + " does not go with " + flag);
     }
-    if (!options.skeletons)
+    if (!IsUsual(command) && !options.skeletons)
     {
-      throw UsageError("--no-skeleton does not go with --" + CommandName(command) + "; give either");
+      throw UsageError("--no-skeleton does not go with " + flag + "; give either");
     }
-    options.command = command;
+    options.command = &command;
   }
-  RequireTaken(options.values, options.command, "");
+  RequireTaken(options.values, options, "");
   options.pages = values.contains("html");
   if (options.pages)
   {
@@ -268,9 +270,9 @@ BatchOptionsFrom(const ParameterValues & values)
   options.force = values.contains("force");
   options.gather = values.contains("gather");
   options.bids = values.contains("bids");
-  if (options.bids && options.command == CommandId::Roots)
+  if (options.bids && !options.command->asCase->hasBids)
   {
-    throw UsageError("--bids does not go with --roots; leave it out");
+    throw UsageError("--bids does not go with " + std::string(options.command->asCase->flag) + "; leave it out");
   }
   if (values.contains("case"))
   {
@@ -288,7 +290,8 @@ RunBatchJob(const BatchOptions & options, const JobContext & context)
 {
   std::vector<fs::path>   passedOver;
   std::vector<CohortCase> cases =
-    options.inputs.empty() ? std::vector<CohortCase>() : FindCases(options.inputs, options.output, &passedOver);
+    options.inputs.empty() ? std::vector<CohortCase>()
+                           : FindCases(options.inputs, OptionsOfCases(options.commands), options.output, &passedOver);
   if (options.only)
   {
     if (*options.only < 1 || *options.only > cases.size())
@@ -337,7 +340,7 @@ CaseList(const BatchOptions & options)
 {
   std::string text;
   std::size_t number = 0;
-  for (const CohortCase & one : FindCases(options.inputs, options.output))
+  for (const CohortCase & one : FindCases(options.inputs, OptionsOfCases(options.commands), options.output))
   {
     text += std::to_string(++number) + "\t" + one.folder + "\t" + InOneLine(one.id) + "\t" + InOneLine(one.scan) + "\n";
   }

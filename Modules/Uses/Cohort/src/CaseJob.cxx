@@ -19,15 +19,6 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/** Whether the command that a batch runs takes this option. It may stand in the table once for each command. */
-bool
-IsTaken(std::string_view name, CommandId command)
-{
-  return ranges::any_of(Parameters(), [&](const Parameter & parameter) {
-    return parameter.name == name && BelongsTo(parameter, command);
-  });
-}
-
 /** A path that no parser takes for an option or a command. */
 std::string
 PlainPath(const fs::path & path)
@@ -36,105 +27,44 @@ PlainPath(const fs::path & path)
   return text.find('/') == std::string::npos ? "./" + text : text;
 }
 
-std::vector<std::string>
-CommandLineOf(const CaseJob & job, CommandId command, bool bids)
-{
-  const std::string & folder = job.one.folder;
-  const std::string   stem = (job.folder / folder).string();
-  const std::string   scan = PlainPath(job.one.scan);
-  if (command == CommandId::Roots)
-  {
-    return { "voxelcore", "roots",      scan,      "-o",         job.folder.string() + "/",
-             "--prefix",  folder + "_", "--force", "--progress", "none" };
-  }
-  if (command == CommandId::Thickness)
-  {
-    return { "voxelcore",
-             "thickness",
-             scan,
-             "-o",
-             stem + (bids ? "_thickness.nii.gz" : "_thickness.nrrd"),
-             "--table",
-             stem + "_thickness.csv",
-             "--report",
-             stem + "_report.json",
-             "--force",
-             "--progress",
-             "none" };
-  }
-  return { "voxelcore",           "core",    scan,         "-o",  stem + "_medial.vtp", "--report",
-           stem + "_report.json", "--force", "--progress", "none" };
-}
-
-/** Reads the options as the case's process will: what that refuses is a refusal here. `given` is its command line. */
-void
-Understand(CaseJob & job, ParameterValues given, CommandId command)
-{
-  given["output"] = (job.folder / "result.vtp").string(); // stands for what CommandLineOf() gives
-  try
-  {
-    if (command == CommandId::Roots)
-    {
-      job.reading = RootsOptionsFrom(given).reading;
-    }
-    else if (command == CommandId::Thickness)
-    {
-      const ThicknessOptions thickness = ThicknessOptionsFrom(given);
-      job.reading = thickness.core.reading;
-      if (IsMask(thickness.within))
-      {
-        job.masks.emplace_back(thickness.within);
-      }
-    }
-    else
-    {
-      job.reading = CoreOptionsFrom(given).reading;
-    }
-  }
-  catch (const UsageError & error)
-  {
-    job.refusal = error.what();
-  }
-}
-
 } // namespace
 
-std::string
-CommandName(CommandId command)
+bool
+IsUsual(const Command & command)
 {
-  const auto found = ranges::find(Commands(), command, &Command::id);
-  return std::string(found->name);
+  return command.asCase->flag.empty();
 }
 
 bool
 DescribesACase(const Parameter & parameter)
 {
-  return IsOptionOfCases(parameter) && parameter.name != "force" && parameter.name != "progress" &&
-         parameter.name != "quiet" && parameter.name != "threads";
+  return parameter.name != "force" && parameter.name != "progress" && parameter.name != "quiet" &&
+         parameter.name != "threads";
 }
 
 void
-RequireTaken(const ParameterValues & values, CommandId command, const std::string & where)
+RequireTaken(const ParameterValues & values, const BatchOptions & options, const std::string & where)
 {
+  const Command & run = *options.command;
   for (const auto & [name, value] : values)
   {
-    if (IsTaken(name, command))
+    if (FindParameter(run.rows, name) != nullptr)
     {
       continue;
     }
-    if (command != CommandId::Core)
+    if (!IsUsual(run))
     {
-      const std::string run = CommandName(command);
-      throw UsageError(Text(where, "--", name, " is no option of 'voxelcore ", run, "', which --", run, " runs"));
+      throw UsageError(
+        Text(where, "--", name, " is no option of 'voxelcore ", run.name, "', which --", run.name, " runs"));
     }
     std::string owners;
     std::string flags;
-    for (const CommandId owner : { CommandId::Roots, CommandId::Thickness })
+    for (const Command & owner : options.commands)
     {
-      if (IsTaken(name, owner))
+      if (owner.asCase != nullptr && FindParameter(owner.rows, name) != nullptr)
       {
-        owners += (owners.empty() ? "'voxelcore " : " and of 'voxelcore ") + CommandName(owner) + "'";
-        flags += (flags.empty() ? "--" : " or --") + CommandName(owner);
+        owners += (owners.empty() ? "'voxelcore " : " and of 'voxelcore ") + std::string(owner.name) + "'";
+        flags += (flags.empty() ? "" : " or ") + std::string(owner.asCase->flag);
       }
     }
     throw UsageError(Text(where, "--", name, " is an option of ", owners, "; give ", flags, ", too"));
@@ -149,9 +79,13 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   job.folder = options.output / one.folder;
   auto values = one.values;
   values.insert(options.values.begin(), options.values.end()); // those of the case stay
-  RequireTaken(values, options.command, one.scan + ": ");
-  job.arguments = CommandLineOf(job, options.command, options.bids);
-  if (options.command == CommandId::Core)
+  const Command & command = *options.command;
+  RequireTaken(values, options, one.scan + ": ");
+  job.arguments = { "voxelcore", std::string(command.name), PlainPath(one.scan) };
+  const auto places = command.asCase->arguments({ job.folder, one.folder, options.bids });
+  job.arguments.insert(job.arguments.end(), places.begin(), places.end());
+  job.arguments.insert(job.arguments.end(), { "--force", "--progress", "none" });
+  if (IsUsual(command))
   {
     values.emplace("with-skeleton", options.skeletons ? "true" : "false");
     if (values["with-skeleton"] == "true")
@@ -161,9 +95,9 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   }
   else
   {
-    job.options = CommandName(options.command) + "\n" + (options.bids ? "nii.gz\n" : "");
+    job.options = std::string(command.name) + "\n" + (options.bids ? "nii.gz\n" : "");
   }
-  if (options.command == CommandId::Roots && !options.pages)
+  if (command.asCase->drawsUnlessTold && !options.pages)
   {
     job.arguments.push_back("--no-pictures");
   }
@@ -174,7 +108,7 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   {
     given.insert(*threads);
   }
-  for (const Parameter & parameter : Parameters())
+  for (const Parameter & parameter : OptionsOfCases(options.commands))
   {
     const auto value = values.find(parameter.name);
     if (!DescribesACase(parameter) || value == values.end())
@@ -190,17 +124,26 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
       job.options += (NamesMask(parameter.name, value->second) ? flag : argument) + "\n"; // a mask is its content
       given.insert(*value);
     }
-    values.erase(value); // an option may stand in the table once for each command
   }
   if (options.pages)
   {
-    if (options.command != CommandId::Roots)
+    if (!command.asCase->drawsUnlessTold)
     {
       job.arguments.push_back("--html=" + (job.folder / one.folder).string() + "_view.html");
     }
     job.options += "--html\n";
   }
-  Understand(job, std::move(given), options.command);
+  given["output"] = (job.folder / "result.vtp").string(); // stands for the one among the arguments
+  try
+  {
+    CaseInput input = command.asCase->understand(given); // what that refuses is a refusal here
+    job.reading = std::move(input.reading);
+    job.masks = std::move(input.masks);
+  }
+  catch (const UsageError & error)
+  {
+    job.refusal = error.what();
+  }
   return job;
 }
 

@@ -29,17 +29,17 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options);
 std::string
 KeyOf(const CaseJob & job, const std::string & digest);
 
-/** "core", "roots", ... */
-std::string
-CommandName(CommandId command);
+/** Whether it is what `batch` runs where nothing is said. */
+bool
+IsUsual(const Command & command);
 
-/** Whether an option goes to each case, and not to the batch as a whole. */
+/** Whether one of OptionsOfCases() says what becomes of a case. */
 bool
 DescribesACase(const Parameter & parameter);
 
 /** `where` stands in front of what is wrong. \throws UsageError for options of a command that is not run */
 void
-RequireTaken(const ParameterValues & values, CommandId command, const std::string & where);
+RequireTaken(const ParameterValues & values, const BatchOptions & options, const std::string & where);
 
 /** What stands where the folder of a case goes, which is made if need be; empty when it is there. It is this case's
  *  trouble alone. \throws OutputError when no folder can be made where all of them go */

@@ -301,7 +301,10 @@ KeepNames(std::vector<Found> &             found,
 } // namespace
 
 std::vector<CohortCase>
-FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::vector<fs::path> * passedOver)
+FindCases(const std::vector<fs::path> & inputs,
+          std::span<const Parameter>    options,
+          const fs::path &              output,
+          std::vector<fs::path> *       passedOver)
 {
   std::vector<CohortCase> cases;
   std::vector<Found>      found;
@@ -311,7 +314,7 @@ FindCases(const std::vector<fs::path> & inputs, const fs::path & output, std::ve
   {
     if (IsManifest(input) && !fs::is_directory(input))
     {
-      auto rows = ReadManifest(input);
+      auto rows = ReadManifest(input, options);
       if (cases.empty()) // tens of thousands are not there twice
       {
         cases.swap(rows);

@@ -3,6 +3,7 @@
 #include "voxelcore/Base/DidYouMean.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/TextFields.h"
+#include "voxelcore/Jobs/ReadInput.h"
 #include "voxelcore/Report/CsvText.h"
 #include "voxelcore/Report/Sha256.h"
 
@@ -81,7 +82,7 @@ IsOfTheBatch(std::string_view name)
 }
 
 ColumnRole
-RoleOf(const std::string & head, const std::string & where)
+RoleOf(const std::string & head, std::span<const Parameter> options, const std::string & where)
 {
   const std::string name = WithoutFormerName("--" + Normalized(Trimmed(head))).substr(2);
   if (name == "id" || name == "participant-id")
@@ -94,9 +95,9 @@ RoleOf(const std::string & head, const std::string & where)
   }
   std::string                   known;
   std::vector<std::string_view> names{ "id", "scan", "note" };
-  for (const Parameter & parameter : Parameters())
+  for (const Parameter & parameter : options)
   {
-    if (IsOptionOfCases(parameter) && !IsOfTheBatch(parameter.name))
+    if (!IsOfTheBatch(parameter.name))
     {
       if (parameter.name == name)
       {
@@ -112,13 +113,13 @@ RoleOf(const std::string & head, const std::string & where)
 }
 
 std::vector<ColumnRole>
-RolesOf(const CsvRow & head, const std::string & where)
+RolesOf(const CsvRow & head, std::span<const Parameter> options, const std::string & where)
 {
   std::vector<ColumnRole>    roles;
   std::map<std::string, int> seen;
   for (const std::string & name : head.fields)
   {
-    roles.push_back(RoleOf(name, where));
+    roles.push_back(RoleOf(name, options, where));
     const ColumnRole & role = roles.back();
     const std::string  key = role.kind == Column::Option ? std::string(role.option->name)
                              : role.kind == Column::Id   ? "id"
@@ -228,17 +229,9 @@ CaseFrom(const CsvRow &                  row,
 } // namespace
 
 bool
-IsOptionOfCases(const Parameter & parameter)
-{
-  return BelongsTo(parameter, CommandId::Batch) && parameter.kind != ParameterKind::Output &&
-         (BelongsTo(parameter, CommandId::Core) || BelongsTo(parameter, CommandId::Roots) ||
-          BelongsTo(parameter, CommandId::Thickness));
-}
-
-bool
 NamesMask(std::string_view option, const std::string & value)
 {
-  return option == "within" && IsMask(value);
+  return option == "within" && NamesFile(value);
 }
 
 std::string
@@ -281,7 +274,7 @@ CaseThatIsThereTwice(const std::vector<CohortCase> & cases)
 }
 
 std::vector<CohortCase>
-ReadManifest(const fs::path & manifest)
+ReadManifest(const fs::path & manifest, std::span<const Parameter> options)
 {
   const std::string name = manifest.string();
   std::string       text = ReadText(manifest);
@@ -292,7 +285,7 @@ ReadManifest(const fs::path & manifest)
   {
     throw InputError(name + ": is empty; the first line must name the columns, such as id,scan,lambda");
   }
-  const auto              roles = RolesOf(rows.front(), name);
+  const auto              roles = RolesOf(rows.front(), options, name);
   std::vector<CohortCase> cases;
   cases.reserve(rows.size() - 1);
   const auto where = [&](std::size_t row) { return name + ": line " + std::to_string(rows[row].line); };

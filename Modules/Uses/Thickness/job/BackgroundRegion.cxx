@@ -1,6 +1,7 @@
 #include "BackgroundRegion.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Jobs/ReadInput.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/Jobs/JobTools.h"
 #include "voxelcore/Thickness/VoxelHull.h"
@@ -109,7 +110,7 @@ ReadWithin(const ThicknessOptions & options, const ImageGeometry & geometry, con
   ReadOptions         reading = options.core.reading;
   reading.binary = true;
   reading.refuseGrey = false;
-  if (!IsMask(within))
+  if (!NamesFile(within))
   {
     if (reading.threshold)
     {
@@ -130,12 +131,6 @@ ReadWithin(const ThicknessOptions & options, const ImageGeometry & geometry, con
 }
 
 } // namespace
-
-bool
-IsMask(const std::string & within)
-{
-  return within.find_first_of("./") != std::string::npos;
-}
 
 VoxelShape
 RegionOfBackground(const ThicknessOptions &        options,

@@ -1,4 +1,5 @@
 #include "voxelcore/Thickness/ThicknessJob.h"
+#include "voxelcore/Jobs/ReadInput.h"
 
 #include "BackgroundRegion.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
@@ -119,7 +120,7 @@ private:
   CheckTargets()
   {
     ProtectInputs(m_Transaction, m_Options.core);
-    if (IsMask(m_Options.within))
+    if (NamesFile(m_Options.within))
     {
       m_Transaction.Protect(m_Options.within);
     }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace voxelcore
@@ -83,5 +84,12 @@ ReadScanAgain(const std::filesystem::path & path,
 /** "256,512": numbers of voxels, each once. \throws UsageError */
 std::vector<std::int64_t>
 ParseResolutions(const std::string & text);
+
+/** Whether a value that is a label or a file is a file: it has a dot or a slash. */
+inline bool
+NamesFile(std::string_view value)
+{
+  return value.find_first_of("./") != std::string_view::npos;
+}
 
 } // namespace voxelcore

@@ -3,7 +3,7 @@
 
 #include "voxelcore/Cohort/Manifest.h"
 #include "voxelcore/Jobs/JobContext.h"
-#include "voxelcore/Options/Parameters.h"
+#include "voxelcore/Options/Command.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -14,12 +14,15 @@
 namespace voxelcore
 {
 
+extern const Command kBatchCommand;
+
 struct BatchOptions
 {
-  std::vector<std::filesystem::path> inputs; ///< as FindCases takes them; may be empty for `gather`
-  std::filesystem::path              output; ///< the folder; made when it is not there
-  ParameterValues                    values; ///< options of the command for all cases; a case's own come first
-  CommandId                          command = CommandId::Core; ///< or Roots, or Thickness: what each case is
+  std::vector<std::filesystem::path> inputs;   ///< as FindCases takes them; may be empty for `gather`
+  std::filesystem::path              output;   ///< the folder; made when it is not there
+  ParameterValues                    values;   ///< options of the command for all cases; a case's own come first
+  std::span<const Command>           commands; ///< all there are
+  const Command *                    command = nullptr; ///< what each case is; it is `asCase`
   bool                               skeletons = true;
   bool                               pages = false;  ///< a page per case that shows it in 3-D (`core --html`)
   bool                               force = false;  ///< what is done is done again
@@ -51,7 +54,7 @@ struct BatchResult
 
 /** \throws UsageError, InputError (the cases that were named) */
 BatchOptions
-BatchOptionsFrom(const ParameterValues & values);
+BatchOptionsFrom(const ParameterValues & values, std::span<const Command> commands);
 
 /** Works on every case that is not done, then writes the tables and the page (GatherCohort). A case that fails costs
  *  itself. Killed at any moment and run again it goes on with what is not done; several may work on one folder.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,10 +24,6 @@ struct CohortCase
   ParameterValues values; ///< options of its command that hold for this case alone
 };
 
-/** Whether a batch passes this option on to the command that a case is: `core`, `roots` or `thickness`. */
-bool
-IsOptionOfCases(const Parameter & parameter);
-
 /** Whether the value of an option is the path of a mask, which is read beside the scan. */
 bool
 NamesMask(std::string_view option, const std::string & value);
@@ -42,14 +39,14 @@ std::optional<std::pair<std::size_t, std::size_t>>
 CaseThatIsThereTwice(const std::vector<CohortCase> & cases);
 
 /** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any option of
- *  `voxelcore core`, `roots` or `thickness` without its dashes; `note` is passed over. An empty field means the option
+ *  cases, of which `options` are the rows (OptionsOfCases), without its dashes; `note` is passed over. An empty field means the option
  *  is not given; flags take yes/no, true/false or 1/0. Relative paths, of scans and of masks (`within`), are
  *  looked for from the manifest's folder. Whether a scan exists, and whether a value has sense, shows when its case
  *  runs.
  *  \throws InputError naming file and line: a column missing, unknown or doubled, an id or scan empty or an id doubled,
  *  a row of another length, what ParseCsv refuses, no row at all. */
 std::vector<CohortCase>
-ReadManifest(const std::filesystem::path & manifest);
+ReadManifest(const std::filesystem::path & manifest, std::span<const Parameter> options);
 
 /** The cases that `inputs` stand for, in their order: manifests (.csv, .tsv); scans; patterns (`*`, `?`, `[..]`), of
  *  which each match is a scan; folders, in which scans are looked for at any depth, sorted by path. A folder that holds
@@ -62,6 +59,7 @@ ReadManifest(const std::filesystem::path & manifest);
  *  \throws InputError for an input that does not exist, a pattern or folder without scans, two cases with one id. */
 std::vector<CohortCase>
 FindCases(const std::vector<std::filesystem::path> & inputs,
+          std::span<const Parameter>                 options,
           const std::filesystem::path &              output = {},
           std::vector<std::filesystem::path> *       passedOver = nullptr);
 

@@ -60,10 +60,6 @@ struct ThicknessResult
 ThicknessResult
 RunThicknessJob(const ThicknessOptions & options, const JobContext & context = {});
 
-/** Whether `within` names a file: it has a dot or a slash. */
-bool
-IsMask(const std::string & within);
-
 /** Per ball, whether it comes within half a voxel of a side of `box`, in voxel indices. */
 std::vector<char>
 BallsAtSides(const PaintingBalls & balls, const ImageGeometry & geometry, const VoxelBox & box);
