@@ -7,6 +7,7 @@
 #include "voxelcore/Jobs/VerifyJob.h"
 #include "voxelcore/Models/MedialModel.h"
 #include "voxelcore/Models/SkeletonModel.h"
+#include "voxelcore/Compare/CompareCommand.h"
 #include "voxelcore/Options/Requests.h"
 #include "voxelcore/Report/CoreReport.h"
 #include "voxelcore/Thickness/ThicknessFiles.h"

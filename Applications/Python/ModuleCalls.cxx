@@ -8,7 +8,6 @@
 #include "voxelcore/Base/Progress.h"
 #include "voxelcore/Certified/CertifiedSkeleton.h"
 #include "voxelcore/Certified/CertifiedThickness.h"
-#include "voxelcore/Compare/CompareCommand.h"
 #include "voxelcore/Compare/ProbabilityJob.h"
 #include "voxelcore/Imaging/ScanRows.h"
 

@@ -46,9 +46,9 @@ function(voxelcore_module name)
   target_link_libraries(VoxelCore${name} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
-# voxelcore_command(Street Name): the street has the command of the constant k<Name>Command, of which
-# command/<Name>Command.cxx says options and run; voxelcore_extension(Street Name): the same of more options of another's
-# command, k<Name>Extension. voxelcore_commands() makes Commands() of all, VoxelCore::Commands.
+# voxelcore_command(Street Name): command/<Name>Command.cxx of the street has the command k<Name>Command.
+# voxelcore_extension(Street Name): the same of k<Name>Extension, more options of another street's command.
+# voxelcore_commands() makes Commands() of all, VoxelCore::Commands.
 function(voxelcore_command street name)
   voxelcore_registered(Command ${street} ${name})
 endfunction()

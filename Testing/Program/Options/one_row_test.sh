@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# An option is one row: a row put into the table of a copy of the sources is found wherever options are.
+# An option is one row, and a command one folder and its name: both, put into a copy of the sources, are found wherever
+# options and commands are.
 # usage: one_row_test.sh SOURCE_DIR [CMAKE OPTIONS]
 set -euo pipefail
 
@@ -15,10 +16,66 @@ fail() {
 mkdir "$folder/source"
 cp -r "$sources"/{CMakeLists.txt,LICENSE,Modules,Applications} "$folder/source/"
 cd "$folder"
-sed -i '/^inline constexpr auto kShapeEditRows = /a\
-  { "trial-option", "--trial-option", Text, "WORD", "", false, kCore | kSkeleton, "Try what a row gives", {}, true },' \
-  source/Modules/Program/Options/src/table/InputRows.h
-grep -q trial-option source/Modules/Program/Options/src/table/InputRows.h || fail "the row was not put in"
+rows=source/Modules/Program/Options/inner/voxelcore/Options/SharedRows.h
+sed -i '/^inline constexpr auto kShapeRows = /a\
+  { "trial-option", "--trial-option", Text, "WORD", "", false, Group::ShapeEdits, "Try what a row gives", {}, true },' \
+  $rows
+grep -q trial-option $rows || fail "the row was not put in"
+
+street=source/Modules/Uses/Trial
+mkdir -p $street/command
+sed -i 's/ Roots Compare Cohort)/ Roots Compare Trial Cohort)/' source/Modules/CMake/VoxelCoreRooms.cmake
+cat >$street/CMakeLists.txt <<'CMAKE'
+add_library(VoxelCoreTrial INTERFACE)
+add_library(VoxelCore::Trial ALIAS VoxelCoreTrial)
+set_target_properties(VoxelCoreTrial PROPERTIES EXPORT_NAME Trial)
+voxelcore_command(Trial Trial)
+CMAKE
+cat >$street/command/TrialCommand.cxx <<'CPP'
+#include "voxelcore/Options/SharedRows.h"
+
+namespace voxelcore
+{
+namespace table
+{
+constexpr auto kTrialOwn = std::to_array<Parameter>({
+  { "trial-word", "--trial-word", Choice, "loud|low", "low", false, Group::Output, "How it is said" },
+});
+constexpr auto kTrialRows = Joined(kRunRows, kScanArgument, kTrialOwn);
+} // namespace table
+
+namespace
+{
+std::vector<std::string>
+CaseArguments(const CasePlace & place)
+{
+  return { "--trial-word", "loud" };
+}
+CaseInput
+Understand(const ParameterValues &)
+{
+  return {};
+}
+constexpr AsCase kAsCase{
+  .arguments = CaseArguments, .understand = Understand, .flag = "--trial", .description = "Try it on each scan"
+};
+} // namespace
+
+extern constinit const Command kTrialCommand{
+  .name = "trial",
+  .description = "Try what a folder gives",
+  .footer = "Example:\n  voxelcore trial scan.nrrd",
+  .place = 45,
+  .rows = table::kTrialRows,
+  .run =
+    [](const Invocation & call) {
+      const std::string word = ChoiceOf(call.values, kTrialCommand, "trial-word");
+      return Outcome{ .text = call.values.at("scan") + " " + word + "\n" };
+    },
+  .asCase = &kAsCase
+};
+} // namespace voxelcore
+CPP
 
 export CCACHE_BASEDIR=$folder CCACHE_NOHASHDIR=1
 cmake -S source -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF -DVOXELCORE_PYTHON=ON "$@" >cmake.log
@@ -29,6 +86,15 @@ program=build/bin/voxelcore
 grep -q 'trial.*option' build/manual/voxelcore-core.1 || fail "not in the manual page"
 grep -q -- '--trial-option' build/manual/voxelcore.bash || fail "not in bash's completion"
 grep -q -- '--trial-option' build/manual/_voxelcore || fail "not in zsh's completion"
+
+"$program" --help | grep -q 'trial .*Try what a folder gives' || fail "a street's command is not in the help"
+test "$("$program" trial scan.nrrd --trial-word loud)" = "scan.nrrd loud" || fail "it does not run"
+! "$program" trial scan.nrrd --trial-word lout 2>error.txt || fail "a wrong choice runs"
+grep -q "did you mean 'loud'" error.txt || fail "its choices are not told"
+test -s build/manual/voxelcore-trial.1 || fail "no manual page of a street's command"
+grep -q -- '--trial-word' build/manual/voxelcore.bash || fail "not in bash's completion"
+grep -q 'trial:Try what a folder gives' build/manual/_voxelcore || fail "not in zsh's completion"
+"$program" batch --help | grep -qE -- '--trial +Try it on each scan' || fail "batch does not run it"
 
 # What a .vtp says of how it was made; its arrays are packed.
 provenance() {
@@ -60,4 +126,4 @@ core = voxelcore.core(numpy.ones((5, 5, 5), int), trial_option="word")
 assert core.report["parameters"]["trial_option"] == "word"
 assert "trial_option : str, optional\n        Try what a row gives" in voxelcore.core.__doc__
 PYTHON
-echo "One row is an option everywhere."
+echo "One row is an option and one folder a command everywhere."

@@ -38,11 +38,10 @@ CaseFolder(const std::string & id);
 std::optional<std::pair<std::size_t, std::size_t>>
 CaseThatIsThereTwice(const std::vector<CohortCase> & cases);
 
-/** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any option of
- *  cases, of which `options` are the rows (OptionsOfCases), without its dashes; `note` is passed over. An empty field means the option
- *  is not given; flags take yes/no, true/false or 1/0. Relative paths, of scans and of masks (`within`), are
- *  looked for from the manifest's folder. Whether a scan exists, and whether a value has sense, shows when its case
- *  runs.
+/** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any of `options`
+ *  (OptionsOfCases) without its dashes; `note` is passed over. An empty field means the option is not given; flags take
+ *  yes/no, true/false or 1/0. Relative paths, of scans and of masks (`within`), are looked for from the manifest's
+ *  folder. Whether a scan exists, and whether a value has sense, shows when its case runs.
  *  \throws InputError naming file and line: a column missing, unknown or doubled, an id or scan empty or an id doubled,
  *  a row of another length, what ParseCsv refuses, no row at all. */
 std::vector<CohortCase>
