@@ -27,7 +27,7 @@ TEST(Parameters, PythonsKeywordIsTheNameUnlessTheRowSaysOtherwise)
   EXPECT_EQ(KeywordOf(Find("core", "labels")), "label");
   EXPECT_EQ(KeywordOf(Find("core", "change-voxels")), "");
   EXPECT_EQ(KeywordOf(Find("core", "scan")), "");
-  EXPECT_EQ(KeywordOf(Find("core", "force")), "");
+  EXPECT_EQ(KeywordOf(Find("core", "force")), "overwrite=True");
   EXPECT_EQ(KeywordOf(Find("compare", "no-skeletons")), "no_skeletons");
 }
 

@@ -89,7 +89,7 @@ TEST(BatchJob, CasesAreListedByNumberFolderIdAndScan)
     WriteAll(folder / name, "");
   }
   WriteAll(folder / "m.csv", "id,scan\n\"odd\tid\",a.nrrd\nplain,b.nrrd\n");
-  BatchOptions options;
+  BatchOptions options = Options({});
   options.inputs = { folder.Path() / "m.csv" };
   options.output = folder / "out";
   const std::string list = CaseList(options);
@@ -105,7 +105,7 @@ TEST(BatchJob, ACaseThatIsNoneIsRefusedBeforeAnythingIsMade)
 {
   const TemporaryFolder folder;
   WriteAll(folder / "a.nrrd", "");
-  BatchOptions options;
+  BatchOptions options = Options({});
   options.inputs = { folder / "a.nrrd" };
   options.output = folder / "out";
   for (const std::size_t number : { 0, 2 })

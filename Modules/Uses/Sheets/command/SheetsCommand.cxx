@@ -66,9 +66,9 @@ constexpr auto kSheetsOwn = std::to_array<Parameter>({
 
 constexpr auto kSheetsRows = Joined(kRunRows,
                                     kScanOrCoreArgument,
-                                    kSheetsOwn,
                                     kJoinRows,
                                     kScanRows,
+                                    kSheetsOwn,
                                     kResolutionRows,
                                     kCavityRows,
                                     kTreeRows,

@@ -106,9 +106,9 @@ constexpr auto kThicknessOwn = std::to_array<Parameter>({
 
 constexpr auto kThicknessRows = Joined(kRunRows,
                                        kScanArgument,
-                                       kThicknessOwn,
                                        kJoinRows,
                                        kScanRows,
+                                       kThicknessOwn,
                                        kResolutionRows,
                                        kCavityRows,
                                        kTreeRows,

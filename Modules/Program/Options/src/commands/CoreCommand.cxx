@@ -139,9 +139,9 @@ constexpr auto kCoreOwn = std::to_array<Parameter>({
 
 constexpr auto kCoreRows = Joined(kRunRows,
                                   kScanArgument,
-                                  kCoreOwn,
                                   kSeparateRows,
                                   kScanRows,
+                                  kCoreOwn,
                                   kCavityRows,
                                   kTreeRows,
                                   kReportRows,

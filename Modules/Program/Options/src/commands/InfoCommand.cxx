@@ -14,7 +14,7 @@ constexpr auto kInfoOwn = std::to_array<Parameter>({
 });
 
 constexpr auto kInfoRows =
-  Joined(kRunRows, kScanArgument, kInfoOwn, kSeparateRows, kScanRows, kResolutionRows, kCavityRows, kTreeRows);
+  Joined(kRunRows, kScanArgument, kSeparateRows, kScanRows, kInfoOwn, kResolutionRows, kCavityRows, kTreeRows);
 
 } // namespace table
 

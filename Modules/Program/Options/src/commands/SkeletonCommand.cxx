@@ -109,9 +109,9 @@ constexpr auto kSkeletonOwn = std::to_array<Parameter>({
 
 constexpr auto kSkeletonRows = Joined(kRunRows,
                                       kScanOrCoreArgument,
-                                      kSkeletonOwn,
                                       kJoinRows,
                                       kScanRows,
+                                      kSkeletonOwn,
                                       kResolutionRows,
                                       kTreeRows,
                                       kReportRows,
