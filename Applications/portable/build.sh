@@ -36,8 +36,10 @@ rm -rf "$build/$name" "$build/$name".*
 mkdir -p "$build/$name/licences"
 cp "$build/program/bin/"voxelcore* "$source_folder/LICENSE" "$here/README.md" "$build/$name/"
 cp "$build/libraries/licences/"*.txt "$build/$name/licences/"
+cp "$build/libraries/sources" "$build/$name/SOURCES" # what is in it, and of which version
 for package in libboost-dev libcli11-dev nlohmann-json3-dev "${runtimes[@]}"; do
   cp "/usr/share/doc/$package/copyright" "$build/$name/licences/$package.txt"
+  dpkg-query -W -f='${Package} ${Version}\n' "$package" | head -n 1 >>"$build/$name/SOURCES"
 done
 cd "$build"
 find "$name" -exec touch -d "@$epoch" {} +

@@ -31,6 +31,7 @@ apt-get "${apt_options[@]}" source --download-only $packages
 for package in $packages; do
   dpkg-source --no-check -x "$package"_*.dsc "$package" >/dev/null
   cp "$package/debian/copyright" "$folder/licences/$package.txt"
+  echo "$package $(sed -n 's/^Version: //p' "$package"_*.dsc | head -n 1)" >>"$folder/sources"
 done
 # Of the C library that Debian's programs have, its cube root: another's is another in the last bit, and so is that of
 # Debian's own for ARM, which is compiled with products and sums in one step.

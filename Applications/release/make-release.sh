@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Makes a release of the commit that is checked out: runs every test, builds the source archive, the wheel and the
-# Debian packages twice, each time in another folder, and compares the bits; writes checksums and what is in it
-# (CycloneDX).
-# usage: make-release.sh FOLDER [--without-tests] [--only source,wheel,packages]
+# Makes a release of the commit that is checked out: runs every test, builds the source archive, the wheel, the Debian
+# packages, the program for each system, the npm package and the page twice, each time in another folder, and compares
+# the bits; writes checksums and what is in it (CycloneDX).
+# usage: make-release.sh FOLDER [--without-tests] [--only PART,..]
+# PART: source, wheel, packages, linux-x86_64, linux-arm64, windows-x86_64 or web; all of them where nothing is said.
 # The second build does without the compiler's cache. Nothing is signed and nothing is uploaded.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -17,17 +18,18 @@ mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
 tests=yes
-parts=source,wheel,packages
+systems="linux-x86_64 linux-arm64 windows-x86_64"
+parts=source,wheel,packages,${systems// /,},web
 while [ $# -gt 0 ]; do
   case "$1" in
     --without-tests) tests=no ;;
-    --only) parts=${2:?"--only: give source, wheel or packages"}; shift ;;
+    --only) parts=${2:?"--only: give parts, such as source,wheel"}; shift ;;
     *) echo "make-release.sh: unknown option '$1'" >&2; exit 2 ;;
   esac
   shift
 done
 for part in ${parts//,/ }; do
-  [[ $part =~ ^(source|wheel|packages)$ ]] || { echo "make-release.sh: unknown part '$part'" >&2; exit 2; }
+  [[ $part =~ ^(source|wheel|packages|${systems// /|}|web)$ ]] || { echo "make-release.sh: unknown part '$part'" >&2; exit 2; }
 done
 has() { [[ ,$parts, == *,$1,* ]]; }
 
@@ -81,6 +83,23 @@ for round in 1 2; do
     for package in "$tree"/packed/*.deb; do
       repack "$package" "$out"
     done
+  fi
+  for system in $systems; do
+    if has "$system"; then
+      env "${cache[@]}" CCACHE_BASEDIR="$tree" CCACHE_NOHASHDIR=1 \
+        bash "$tree/Applications/portable/build.sh" "$system" "$tree/build-$system" >"$out.log" 2>&1 ||
+        { tail -n 30 "$out.log" >&2; fail "the program for $system cannot be built"; }
+      cp "$tree/build-$system/voxelcore-$version-$system".* "$out/"
+    fi
+  done
+  if has web; then
+    env "${cache[@]}" bash "$tree/Applications/web/build.sh" "$tree/build-web" >"$out.log" 2>&1 ||
+      { tail -n 30 "$out.log" >&2; fail "the web application cannot be built"; }
+    cp "$tree/build-web/voxelcore-$version.tgz" "$out/"
+    cp "$tree/build-web/voxelcore.html" "$out/voxelcore-$version.html"
+    find "$tree/build-web/page" -exec touch -d "@$SOURCE_DATE_EPOCH" {} +
+    tar --sort=name --owner=0 --group=0 --numeric-owner -C "$tree/build-web" \
+      --transform "s,^page,voxelcore-$version-page," -c page | gzip -n -9 >"$out/voxelcore-$version-page.tar.gz"
   fi
   rm -rf "$tree"
 done

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Writes what is in a release, as CycloneDX 1.4: each file with its digest, and the libraries it holds or needs.
 
-usage: sbom.py VERSION FOLDER > OUT.cdx.json      FOLDER holds archives, wheels and .deb packages
+usage: sbom.py VERSION FOLDER > OUT.cdx.json      FOLDER holds archives, wheels, .deb and npm packages, and the page
 
 Of a wheel the libraries put into it, with their Debian packages and versions; of a package what it depends on, with the
-version it was linked with. SOURCE_DATE_EPOCH is the time it states; the same files give the same bytes.
+version it was linked with; of a program for another system, of the npm package and of the page, which is made of it,
+what their file SOURCES names. SOURCE_DATE_EPOCH is the time it states; the same files give the same bytes.
 """
 
 import datetime
@@ -15,6 +16,8 @@ import pathlib
 import re
 import subprocess
 import sys
+import tarfile
+import urllib.parse
 import uuid
 import zipfile
 
@@ -44,11 +47,37 @@ def of_package(path):
     return found
 
 
+def of_program(path):
+    """Of an archive without such a file nothing."""
+    if path.suffix == ".zip":
+        with zipfile.ZipFile(path) as archive:
+            texts = [archive.read(name) for name in archive.namelist() if name.endswith("/SOURCES")]
+    else:
+        with tarfile.open(path) as archive:
+            texts = [archive.extractfile(one).read() for one in archive if one.name.endswith("/SOURCES")]
+    found = []
+    for line in texts[0].decode().splitlines() if texts else []:
+        name, version = line.split()
+        purl = f"pkg:deb/debian/{name}@{urllib.parse.quote(version, safe='')}"
+        found.append({"type": "library", "name": name, "purl": purl, "version": version})
+    return found
+
+
+def libraries_of(path, folder, version):
+    if path.suffix == ".whl":
+        return of_wheel(path)
+    if path.suffix == ".deb":
+        return of_package(path)
+    if path.suffix == ".html" or path.name.endswith("-page.tar.gz"):
+        return of_program(folder / f"voxelcore-{version}.tgz")
+    return of_program(path)
+
+
 def main():
     version, folder = sys.argv[1], pathlib.Path(sys.argv[2])
     libraries, files, needs = {}, [], []
     for path in sorted(folder.iterdir()):
-        if path.suffix not in (".gz", ".whl", ".deb"):
+        if path.suffix not in (".gz", ".whl", ".deb", ".zip", ".tgz", ".html"):
             continue
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         files.append(
@@ -60,7 +89,7 @@ def main():
                 "hashes": [{"alg": "SHA-256", "content": digest}],
             }
         )
-        of_file = of_wheel(path) if path.suffix == ".whl" else of_package(path) if path.suffix == ".deb" else []
+        of_file = libraries_of(path, folder, version)
         for one in of_file:
             libraries.setdefault(one["purl"], dict(one, **{"bom-ref": one["purl"]}))
         needs.append({"ref": path.name, "dependsOn": sorted({one["purl"] for one in of_file})})

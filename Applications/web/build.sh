@@ -17,8 +17,10 @@ mkdir -p "$package/licences"
 cp -r "$here/package/." "$package/"
 cp "$here/README.md" "$source_folder/LICENSE" "$package/"
 cp "$build/libraries/licences/"*.txt "$package/licences/"
+cp "$build/libraries/sources" "$package/SOURCES" # what is in it, and of which version
 for name in libboost-dev libcli11-dev nlohmann-json3-dev emscripten; do
   cp "/usr/share/doc/$name/copyright" "$package/licences/$name.txt"
+  dpkg-query -W -f='${Package} ${Version}\n' "$name" | head -n 1 >>"$package/SOURCES"
 done
 cp "$build/program/bin/voxelcore.wasm" "$package/"
 { cat "$build/program/bin/voxelcore.js"; echo 'export default createVoxelCore;'; } >"$package/voxelcore.js"

@@ -20,14 +20,17 @@ import hashlib, json, pathlib
 (listing,) = pathlib.Path().glob("*.cdx.json")
 document = json.loads(listing.read_text())
 assert (document["bomFormat"], document["specVersion"]) == ("CycloneDX", "1.4")
+version = document["metadata"]["component"]["version"]
 files = {one["name"]: one["hashes"][0]["content"] for one in document["components"] if one["type"] == "file"}
-made = [path for path in pathlib.Path().iterdir() if path.suffix in (".gz", ".whl", ".deb")]
+made = [path for path in pathlib.Path().iterdir() if path.suffix in (".gz", ".whl", ".deb", ".zip", ".tgz", ".html")]
 assert {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in made} == files and len(made) > 0
 known = {one["bom-ref"] for one in document["components"]}
 for one in document["dependencies"]:
     assert set(one["dependsOn"]) <= known
     if one["ref"].endswith(".whl"):
         assert any("libcrypto" in ref or "libssl" in ref for ref in one["dependsOn"]), one
+    elif one["ref"] in files and not one["ref"].endswith((".deb", f"-{version}.tar.gz")):
+        assert any("debian/c-blosc@" in ref for ref in one["dependsOn"]), one
 assert all(one["version"] for one in document["components"] if one["type"] == "library"), "a version is missing"
 END
 echo "a release of $(ls | wc -l) files"
