@@ -4,6 +4,7 @@
 
 #include "voxelcore/Base/CountBits.h"
 #include "voxelcore/Base/ParallelTasks.h"
+#include "voxelcore/Shape/ShapeBits.h"
 
 #include <array>
 #include <bit>
@@ -34,27 +35,16 @@ VisitBoundaryWords(const VoxelShape & shape, std::int32_t firstZ, std::int32_t l
     for (std::int32_t y = 0; y <= size[1]; ++y)
     {
       around.MoveTo(y, z);
-      const auto & [a, b, c, d] = around.rows;
       for (const std::uint32_t word : around.Words())
       {
-        const std::uint64_t any = a[word] | b[word] | c[word] | d[word];
-        const std::uint64_t all = a[word] & b[word] & c[word] & d[word];
-        std::uint64_t       carryAny = 0;
-        std::uint64_t       carryAll = 0;
-        if (word > 0)
-        {
-          carryAny = (a[word - 1] | b[word - 1] | c[word - 1] | d[word - 1]) >> 63;
-          carryAll = (a[word - 1] & b[word - 1] & c[word - 1] & d[word - 1]) >> 63;
-        }
-        // Corner x lies between voxels x - 1 and x.
-        const std::uint64_t boundary = (any | (any << 1) | carryAny) & ~(all & ((all << 1) | carryAll));
+        const std::uint64_t boundary = MixedCorners(around.rows, word);
         if (boundary != 0)
         {
           visit(y, z, word, boundary);
         }
       }
       // Only when the box is a multiple of 64 wide: the corner behind its last voxel.
-      if ((a[words - 1] | b[words - 1] | c[words - 1] | d[words - 1]) >> 63 != 0)
+      if (MixedCorners(around.rows, words) != 0)
       {
         visit(y, z, words, std::uint64_t{ 1 });
       }

@@ -2,10 +2,14 @@
 
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Shape/ShapeBits.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace voxelcore
@@ -19,6 +23,71 @@ constexpr int kHalvings = 20;
 
 // Of the voxels' sides; spacings are approximated by whole numbers where radii are computed.
 constexpr double kSlack = 1e-5;
+
+/** Whole numbers from the nearest to `place` outwards, while visit(n) is true. */
+template <typename TVisit>
+void
+Outward(double place, const TVisit & visit)
+{
+  auto below = static_cast<std::int32_t>(std::floor(place));
+  auto above = below + 1;
+  while (visit(place - below <= above - place ? below-- : above++))
+  {}
+}
+
+/** A row of lattice corners, in indices of the scan. */
+class CornerRow
+{
+public:
+  CornerRow(const VoxelShape & shape, std::int32_t y, std::int32_t z)
+    : m_First(shape.Box().lower[0])
+    , m_Size(shape.Box().size[0])
+  {
+    const std::int32_t ownY = y - shape.Box().lower[1];
+    const std::int32_t ownZ = z - shape.Box().lower[2];
+    m_Rows = { shape.RowAnywhere(ownY - 1, ownZ - 1),
+               shape.RowAnywhere(ownY, ownZ - 1),
+               shape.RowAnywhere(ownY - 1, ownZ),
+               shape.RowAnywhere(ownY, ownZ) };
+  }
+
+  /** The first boundary vertex from `from` to `to`. */
+  std::optional<std::int32_t>
+  FirstMixed(std::int32_t from, std::int32_t to) const
+  {
+    const std::int32_t last = std::min(to - m_First, m_Size);
+    for (std::int32_t x = std::max(from - m_First, 0); x <= last; x = (x | 63) + 1)
+    {
+      if (const std::uint64_t bits = MixedCorners(m_Rows, static_cast<std::size_t>(x) / 64) >> (x % 64); bits != 0)
+      {
+        x += std::countr_zero(bits);
+        return x <= last ? std::optional(m_First + x) : std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /** The first from `from` down to `to`. */
+  std::optional<std::int32_t>
+  LastMixed(std::int32_t from, std::int32_t to) const
+  {
+    const std::int32_t last = std::max(to - m_First, 0);
+    for (std::int32_t x = std::min(from - m_First, m_Size); x >= last; x = (x & ~63) - 1)
+    {
+      if (const std::uint64_t bits = MixedCorners(m_Rows, static_cast<std::size_t>(x) / 64) << (63 - x % 64); bits != 0)
+      {
+        x -= std::countl_zero(bits);
+        return x >= last ? std::optional(m_First + x) : std::nullopt;
+      }
+    }
+    return std::nullopt;
+  }
+
+private:
+  std::array<ConstShapeRow, 4> m_Rows;
+  std::int32_t                 m_First;
+  std::int32_t                 m_Size;
+};
 
 } // namespace
 
@@ -110,37 +179,34 @@ OpenShape::DistanceWithin(const Vector3 & place, double least, double most) cons
     const double way = (corner - at[axis]) * spacing[axis];
     return way * way;
   };
-  const double reach = std::sqrt(nearest2);
-  bool         isFound = false;
-  for (std::int32_t z = first(2, reach); z <= last(2, reach); ++z)
-  {
-    for (std::int32_t y = first(1, reach); y <= last(1, reach); ++y)
-    {
-      const double row2 = squared(2, z) + squared(1, y);
+  bool isFound = false;
+  // Rows near the place come first: what is found there leaves few of the others to look at.
+  Outward(at[2], [&](std::int32_t z) {
+    const double layer2 = squared(2, z);
+    Outward(at[1], [&](std::int32_t y) {
+      const double row2 = layer2 + squared(1, y);
       if (row2 > nearest2)
       {
-        continue;
+        return false;
       }
       // No boundary vertex lies in the ball of the least distance.
-      const double inner = std::sqrt(std::max(0.0, least2 - row2));
-      const double outer = std::sqrt(nearest2 - row2);
-      for (std::int32_t x = first(0, outer); x <= last(0, outer); ++x)
-      {
-        if (inner > 0 && x >= first(0, inner) && x <= last(0, inner))
+      const double    inner = std::sqrt(std::max(0.0, least2 - row2));
+      const double    outer = std::sqrt(nearest2 - row2);
+      const auto      middle = static_cast<std::int32_t>(std::floor(at[0]));
+      const CornerRow corners(*m_Shape, y, z);
+      const auto      look = [&](std::optional<std::int32_t> x) {
+        if (x && row2 + squared(0, *x) <= nearest2)
         {
-          x = last(0, inner);
-          continue;
-        }
-        const double   squares = row2 + squared(0, x);
-        const unsigned around = squares <= nearest2 ? m_Shape->Around(x, y, z) : 0;
-        if (around != 0 && around != 0xFF)
-        {
-          nearest2 = squares;
+          nearest2 = row2 + squared(0, *x);
           isFound = true;
         }
-      }
-    }
-  }
+      };
+      look(corners.LastMixed(inner > 0 ? first(0, inner) - 1 : middle, first(0, outer)));
+      look(corners.FirstMixed(inner > 0 ? last(0, inner) + 1 : middle + 1, last(0, outer)));
+      return true;
+    });
+    return layer2 <= nearest2;
+  });
   return isFound ? std::clamp(std::sqrt(nearest2), least, most) : most;
 }
 
