@@ -23,7 +23,7 @@ if [ ! -e "$build/build.ninja" ] && ! "${configure[@]}" >"$out/configure.log" 2>
   cat "$out/configure.log" >&2
   exit 1
 fi
-cmake --build "$build" --target voxelcore
+cmake --build "$build" # all of it, so that `cmake --install` works afterwards
 
 program=$build/bin/voxelcore
 options=(--report "$out/aal_medial.json" --html "$out/aal.html" --force)

@@ -65,13 +65,26 @@ case "$how" in
     [ -z "$(find "$moved/second" -name VoxelCore-ITK.cmake)" ] || parts+=";ITK"
     configure "$scratch/all" "${options[@]}" -DPARTS="$parts"
     cmake --build "$scratch/all"
-    # The guide's project, as it stands there.
-    mkdir "$scratch/mine"
+    # Without a word about how and what, as its first lines say.
+    cmake -S "$source/Testing/Package/consumer" -B "$scratch/plain" -DCMAKE_PREFIX_PATH="$moved/second" \
+      >"$scratch/plain.log" 2>&1 || { cat "$scratch/plain.log" >&2; fail "the example's own line does not configure"; }
+    # The guide's projects, as they stand there.
     page=$source/Applications/manual/guide/cpp.md
-    sed -n '/^    cmake_minimum_required/,/^$/s/^    //p' "$page" >"$scratch/mine/CMakeLists.txt"
+    for kind in mine itk; do
+      mkdir "$scratch/$kind"
+      sed -n '/^    cmake_minimum_required/,/^$/s/^    //p' "$page" >"$scratch/$kind/CMakeLists.txt"
+    done
+    grep -qx 'project(mine CXX)' "$scratch/mine/CMakeLists.txt" || fail "the guide's project needs more than C++"
     sed -n '/^    #include "voxelcore\/Certified/,/^    }$/s/^    //p' "$page" >"$scratch/mine/mine.cxx"
-    cmake -S "$scratch/mine" -B "$scratch/mine/build" -G Ninja -DCMAKE_PREFIX_PATH="$moved/second"
-    cmake --build "$scratch/mine/build"
+    sed -n '/^    #include "itk/,/^    }$/s/^    //p' "$page" >"$scratch/itk/mine.cxx"
+    sed -i 's/Core Imaging Models/ITK Models/; s/VoxelCore::Core VoxelCore::Imaging/VoxelCore::ITK/' \
+      "$scratch/itk/CMakeLists.txt"
+    [[ $parts == *ITK* ]] || rm -r "$scratch/itk"
+    for kind in "$scratch"/{mine,itk}/; do
+      [ -d "$kind" ] || continue
+      cmake -S "$kind" -B "$kind/build" -G Ninja -DCMAKE_PREFIX_PATH="$moved/second"
+      cmake --build "$kind/build"
+    done
     scan_into "$scratch"
     "$scratch/all/UsesFiles" "$scratch/torus.nrrd" "$scratch/files.vtp"
     "$scratch/all/UsesJobs" "$scratch/torus.nrrd" "$scratch/jobs.vtp"
@@ -82,6 +95,12 @@ case "$how" in
     cmp "$scratch/plugin.vtp" "$scratch/program.vtp"
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/scan.nii.gz" -q
     (cd "$scratch" && mine/build/mine && [ -s medial.vtp ]) || fail "the guide's example does not work"
+    if [ -d "$scratch/itk" ]; then
+      rm "$scratch/medial.vtp"
+      (cd "$scratch" && itk/build/mine) || fail "the guide's program for ITK does not work"
+      "$build/bin/voxelcore" verify "$scratch/scan.nii.gz" "$scratch/medial.vtp" >/dev/null ||
+        fail "what the guide's program for ITK wrote is not verified"
+    fi
     "$build/bin/voxelcore" phantom torus --size 40 -o "$scratch/torus.mha" -q
     "$scratch/all/UsesVTK" "$scratch/torus.mha" 2 1 "$scratch/vtk.vtp"
     if [ -x "$scratch/all/UsesITK" ]; then

@@ -24,6 +24,10 @@ bash Applications/quickstart.sh >"$scratch/first.log" </dev/null ||
   { cat "$scratch/first.log" >&2; fail "the quickstart failed"; }
 [ -s build/quickstart/aal_medial.vtp ] && [ -s build/quickstart/aal_medial.json ] ||
   fail "the quickstart left no result"
+# The first line of the guide's page on C++, with what the quickstart built.
+cmake --install build/release --prefix "$scratch/at-once" >"$scratch/install.log" 2>&1 ||
+  { tail -n 5 "$scratch/install.log" >&2; fail "after the quickstart VoxelCore cannot be installed"; }
+"$scratch/at-once/bin/voxelcore" --version >/dev/null || fail "after the quickstart another program was installed"
 rows=$(grep -c 'Hippocampus_[LR]' "$scratch/first.log") || true
 [ "$rows" = 2 ] || fail "the quickstart printed $rows rows of the hippocampi"
 bash Applications/quickstart.sh >"$scratch/second.log" </dev/null
