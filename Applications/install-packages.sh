@@ -16,7 +16,7 @@ packages_of() {
     python) echo pybind11-dev python3-dev python3-numpy python3-vtk9 ;;
     wheel) echo g++ cmake ninja-build ccache libpng-dev zlib1g-dev libbz2-dev libblosc-dev libzstd-dev libexpat1-dev \
                 libssl-dev libboost-dev libcli11-dev nlohmann-json3-dev pybind11-dev python3-dev \
-                python3-numpy python3-pip python3-setuptools python3-skbuild python3-venv python3-wheel patchelf ;;
+                python3-numpy python3-pip python3-venv patchelf ;;
     demo) echo mricron-data ;;
     picture) echo xvfb xauth ;;
     guide) echo mkdocs ;;
@@ -34,10 +34,12 @@ packages_of() {
               libjs-three ;;
     portable) echo g++ g++-aarch64-linux-gnu g++-mingw-w64-x86-64-posix cmake ninja-build ccache dpkg-dev libboost-dev \
                    libcli11-dev nlohmann-json3-dev zip debootstrap qemu-user wine wine64 ;;
+    paraview) echo paraview xvfb xauth mricron-data ;;
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
-            "package, sanitizer, analysis, browser, cluster, container, reproduction, bench, web and portable" >&2
+            "package, sanitizer, analysis, browser, cluster, container, reproduction, bench, web, portable and" \
+            "paraview" >&2
        return 2 ;;
   esac
 }
