@@ -22,7 +22,8 @@ packages_of() {
     guide) echo mkdocs ;;
     test) echo clang-format xvfb libgtest-dev libgmock-dev mypy python3-nibabel python3-networkx python3-numpy \
                python3-pandas python3-pytest python3-xarray python3-pydicom python3-mrcfile python3-h5py minc-tools \
-               python3-tifffile python3-pil python3-zarr python3-matplotlib python3-pyqt5 xauth mricron-data ;;
+               python3-tifffile python3-pil python3-zarr python3-matplotlib python3-pyqt5 python3-cheetah xauth \
+               mricron-data ;;
     package) echo dpkg-dev file debootstrap doxygen graphviz groff mkdocs mricron-data ;;
     sanitizer) echo clang libomp-dev ;;
     analysis) echo clang clang-tidy cppcheck valgrind ;;

@@ -1,6 +1,8 @@
-// Writes the manual pages and the completions of bash and zsh into a folder. usage: voxelcore_manual FOLDER
+// Writes manual pages, completions of bash and zsh, and the table of options into a folder.
+// usage: voxelcore_manual FOLDER
 
 #include "Texts.h"
+#include "voxelcore/Options/OptionsJson.h"
 
 #include <filesystem>
 #include <fstream>
@@ -29,6 +31,7 @@ main(int argc, char ** argv)
   }
   write("voxelcore.bash", BashCompletion());
   write("_voxelcore", ZshCompletion());
+  write("options.json", OptionsJson());
   if (!written)
   {
     std::cerr << "voxelcore_manual: " << folder.string() << ": cannot be written\n";
