@@ -1,5 +1,6 @@
 #pragma once
 
+#include "voxelcore/Options/Command.h"
 #include "voxelcore/Cohort/Manifest.h"
 #include "voxelcore/Imaging/LabelVolume.h"
 #include "voxelcore/Masks/VoxelChanges.h"
@@ -85,7 +86,7 @@ ReadByKind(const std::string & kind, const std::filesystem::path & path)
   }
   else if (kind == "manifest")
   {
-    ReadManifest(path);
+    ReadManifest(path, OptionsOfCases(Commands()));
   }
   else
   {
