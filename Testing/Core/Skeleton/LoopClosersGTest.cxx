@@ -49,6 +49,40 @@ TEST(LoopClosers, NodesThatCountAsOneCloseALoopBetweenThem)
   EXPECT_EQ(FindLoopClosers(graph, { 0, 0 }, { 3 }), std::vector<std::uint8_t>{ 1 });
 }
 
+// Two triangles over one side: 0-1-2 of radii 3, 3, 1, and 1-2-3 whose sides are of radius 2.
+TEST(LoopClosers, OfTheLoopsThroughABranchTheThickestIsFoundAndIsNotCut)
+{
+  GraphBuilder builder;
+  builder.Line({ 0, 0, 0 }, { 30, 0, 0 }, 4);
+  builder.Line({ 0, 0, 0 }, { 0, 30, 0 }, 3);
+  builder.Line({ 30, 0, 0 }, { 0, 30, 0 }, 1);
+  builder.Line({ 30, 0, 0 }, { 30, 30, 0 }, 2);
+  builder.Line({ 30, 30, 0 }, { 0, 30, 0 }, 2.5);
+  builder.Line({ 30, 30, 0 }, { 60, 60, 0 }, 0.5);
+  const SkeletonGraph graph = builder.Graph();
+  const auto          radius = [&](std::size_t branch) { return graph.radius[graph.Branch(branch)[1]]; };
+  const auto          at = [&](const Vector3 & place) { return BranchAt(graph, place).value().branch; };
+  EXPECT_FALSE(FindCloserOf(graph, at({ 50, 50, 0 })));
+  EXPECT_EQ(radius(FindCloserOf(graph, at({ 15, 0, 0 })).value()), 2); // all round
+  EXPECT_EQ(radius(FindCloserOf(graph, at({ 30, 10, 0 })).value()), 2);
+  EXPECT_EQ(radius(FindCloserOf(graph, at({ 15, 15, 0 })).value()), 1);
+  EXPECT_FALSE(BranchAt(graph, { 15, 15, 1.5 }));
+  EXPECT_TRUE(BranchAt(graph, { 15, 0, 3.9 }));
+  for (const auto & [places, cuts] : std::vector<std::pair<std::vector<Vector3>, std::size_t>>{
+         { {}, 2 },
+         { { { 50, 50, 0 } }, 2 },
+         { { { 500, 50, 0 } }, 2 },
+         { { { 15, 0, 0 }, { 30, 10, 0 } }, 1 },
+         { { { 15, 0, 0 }, { 15, 15, 0 } }, 0 },
+       })
+  {
+    SkeletonGraph cut = graph;
+    EXPECT_EQ(CutLoops(cut, places).size(), cuts);
+  }
+  SkeletonGraph cut = graph;
+  EXPECT_EQ(CutLoops(cut, std::vector<Vector3>{ { 15, 15, 0 } }).at(0).radius, 2);
+}
+
 // As many as there are loops, and without them no way is wider between any two nodes: here by trying all places.
 TEST(LoopClosers, OfARandomNetworkAsManyAsItHasLoopsAndNoneIsThickerThanAWayAroundIt)
 {

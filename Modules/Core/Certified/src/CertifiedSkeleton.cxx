@@ -166,7 +166,7 @@ Cut(CertifiedSkeleton & skeleton, const BranchRequest & request, double standOut
   SkeletonGraph & graph = skeleton.skeleton.graph;
   if (request.cutLoops)
   {
-    skeleton.cuts = CutLoops(graph);
+    skeleton.cuts = CutLoops(graph, request.realLoops);
     PruneCutEnds(graph, skeleton.cuts, standOut);
   }
   if (request.splitAtJunctions)
@@ -426,7 +426,9 @@ SkeletonOf(const PlacedCore &       core,
   {
     RequireNothingStandsOut(burned, voxels, there, request);
   }
-  CertifiedSkeleton result = MeasureCurves(burned, voxels, there, request);
+  SkeletonRequest inFrame = request;
+  frame.Enter(inFrame.branches.realLoops);
+  CertifiedSkeleton result = MeasureCurves(burned, voxels, there, inFrame);
   LeaveFrame(frame, request.branches.root, result);
   result.skeleton.label = core.label;
   result.skeleton.component = core.component;

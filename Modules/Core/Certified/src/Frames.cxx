@@ -58,6 +58,10 @@ InFrame(CertifiedRequest request, const BodyFrame & frame, const SpacingWeights 
   {
     request.scan = frame.Enter(*request.scan);
   }
+  if (request.skeleton)
+  {
+    frame.Enter(request.skeleton->branches.realLoops);
+  }
   return request;
 }
 

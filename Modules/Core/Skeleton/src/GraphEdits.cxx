@@ -5,18 +5,48 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
 namespace voxelcore
 {
 
-std::vector<LoopCut>
-CutLoops(SkeletonGraph & graph)
+std::optional<BranchPoint>
+BranchAt(const SkeletonGraph & graph, const Vector3 & place)
 {
-  const std::vector<std::uint8_t> cut = FindLoopClosers(graph, NodeHubs(graph), LeastRadii(graph));
-  std::vector<LoopCut>            cuts;
-  GraphLines                      lines;
+  std::optional<BranchPoint> found;
+  double                     nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const double away = Distance(graph.positions[points[i]], place);
+      if (away < nearest && away <= std::max(SectionRadii(graph)[points[i]], graph.radius[points[i]]))
+      {
+        found = { branch, i };
+        nearest = away;
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<LoopCut>
+CutLoops(SkeletonGraph & graph, std::span<const Vector3> real)
+{
+  std::vector<std::uint8_t> cut = FindLoopClosers(graph, NodeHubs(graph), LeastRadii(graph));
+  for (const Vector3 & place : real)
+  {
+    const auto here = BranchAt(graph, place);
+    if (const auto closer = here ? FindCloserOf(graph, here->branch) : std::nullopt)
+    {
+      cut[*closer] = 0;
+    }
+  }
+  std::vector<LoopCut> cuts;
+  GraphLines           lines;
   for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
   {
     std::vector<ElementIndex> line(graph.Branch(branch).begin(), graph.Branch(branch).end());

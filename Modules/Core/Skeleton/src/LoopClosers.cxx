@@ -49,4 +49,27 @@ FindLoopClosers(const SkeletonGraph &             graph,
   return closes;
 }
 
+std::optional<std::size_t>
+FindCloserOf(const SkeletonGraph & graph, std::size_t branch)
+{
+  const std::vector<ElementIndex> hubs = NodeHubs(graph);
+  std::vector<double>             thickness = LeastRadii(graph);
+  const auto                      before = FindLoopClosers(graph, hubs, thickness);
+  if (before[branch] != 0)
+  {
+    return branch;
+  }
+  // Put in last, it closes the loop, and what did so before is the thickest way round it.
+  thickness[branch] = -1;
+  const auto after = FindLoopClosers(graph, hubs, thickness);
+  for (std::size_t other = 0; other < before.size(); ++other)
+  {
+    if (before[other] > after[other])
+    {
+      return other;
+    }
+  }
+  return std::nullopt;
+}
+
 } // namespace voxelcore

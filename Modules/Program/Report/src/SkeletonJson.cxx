@@ -147,6 +147,10 @@ SkeletonStageJson(const SkeletonRequest & stage)
              { "cut_loops", branches.cutLoops },
              { "split_at_junctions", branches.splitAtJunctions },
              { "root", RootText(branches.root) } };
+  if (!branches.realLoops.empty())
+  {
+    json["real_loops"] = branches.realLoops;
+  }
   if (stage.tolerance)
   {
     json["tolerance"] = stage.tolerance->text;
@@ -185,6 +189,7 @@ ReadSkeletonStage(const Json & json)
   json.at("prune_branches_radii").get_to(stage.branches.pruneRadii);
   json.at("cut_loops").get_to(stage.branches.cutLoops);
   json.at("split_at_junctions").get_to(stage.branches.splitAtJunctions);
+  stage.branches.realLoops = json.value("real_loops", stage.branches.realLoops);
   stage.branches.root = ParseRoot(json.at("root").get<std::string>());
   return stage;
 }

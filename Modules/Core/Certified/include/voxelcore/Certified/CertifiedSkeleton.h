@@ -19,6 +19,8 @@ struct BranchRequest
   bool                  cutLoops = false;
   bool                  splitAtJunctions = false;
   RootChoice            root;
+
+  std::vector<std::array<double, 3>> realLoops{}; ///< places, mm, on loops that are not cut (CutLoops)
 };
 
 /** From a core to a curve skeleton. */

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -132,9 +133,21 @@ struct LoopCut
 
 /** Cuts every cycle of branches at its thinnest branch, there at the thinnest point between the ends: that point
  *  becomes two tips. What is left is a forest of which the thick parts are whole. Cycles within faces that stay
- *  remain. */
+ *  remain; so does, for each place of `real`, the thickest of the cycles through the branch there. */
 std::vector<LoopCut>
-CutLoops(SkeletonGraph & graph);
+CutLoops(SkeletonGraph & graph, std::span<const std::array<double, 3>> real = {});
+
+/** A point of a branch, by its place in that. */
+struct BranchPoint
+{
+  std::size_t branch = 0;
+  std::size_t point = 0;
+};
+
+/** The branch at a place: of the points within whose radius (of the section, or of the ball where that is more) it lies
+ *  the nearest, of equally near ones the first; none where there is none. */
+std::optional<BranchPoint>
+BranchAt(const SkeletonGraph & graph, const std::array<double, 3> & place);
 
 /** Takes off what hangs loose after cuts: branches whose tip is at a cut, and whose ball there stands out of the ball
  *  at their other end by less than `standOut` mm, the shortest first, until none is left. Gives their number. */

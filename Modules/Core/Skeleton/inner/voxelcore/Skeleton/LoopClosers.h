@@ -4,6 +4,7 @@
 #include "voxelcore/Skeleton/SkeletonGraph.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace voxelcore
@@ -20,5 +21,9 @@ std::vector<std::uint8_t>
 FindLoopClosers(const SkeletonGraph &             graph,
                 const std::vector<ElementIndex> & nodeOf,
                 const std::vector<double> &       thickness);
+
+/** Of the loops through a branch the thickest: the branch that closes it. None where no loop passes. */
+std::optional<std::size_t>
+FindCloserOf(const SkeletonGraph & graph, std::size_t branch);
 
 } // namespace voxelcore
