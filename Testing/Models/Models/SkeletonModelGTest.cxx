@@ -143,6 +143,28 @@ TEST(SkeletonModel, LivesOfBranchesComeBackAndStandInTheTable)
   EXPECT_THROW(ReadSkeletonVtp(folder / "b.vtp"), InputError);
 }
 
+TEST(SkeletonModel, NamesOfBranchesComeBackAndStandInTheTable)
+{
+  const TemporaryFolder folder;
+  SkeletonModel         model = Mixed();
+  EXPECT_FALSE(HasNames(model));
+  model.parts[0].names = { "", "left, upper" };
+  ASSERT_EQ(model.parts[0].graph.BranchCount(), 2U);
+  WriteSkeletonVtp(folder / "a.vtp", model);
+  const SkeletonModel read = ReadSkeletonVtp(folder / "a.vtp");
+  EXPECT_EQ(read.parts[0].names, model.parts[0].names);
+  EXPECT_TRUE(HasNames(read));
+  WriteBranchCsv(folder / "a.csv", model);
+  const std::string table = ReadAll(folder / "a.csv");
+  EXPECT_NE(table.find(",branch_name\n"), std::string::npos);
+  EXPECT_NE(table.find(",\"left, upper\"\n"), std::string::npos);
+  EXPECT_TRUE(Json::parse(SkeletonColumnsJson(model.unit, false, false, true)).at("branches").contains("branch_name"));
+  EXPECT_FALSE(Json::parse(SkeletonColumnsJson(model.unit)).at("branches").contains("branch_name"));
+  model.parts[0].names = { "", "" };
+  WriteSkeletonVtp(folder / "b.vtp", model);
+  EXPECT_FALSE(HasNames(ReadSkeletonVtp(folder / "b.vtp")));
+}
+
 TEST(SkeletonModel, RadiiOfOlderFilesAreTakenAsTheyWereMeant)
 {
   const TemporaryFolder folder;

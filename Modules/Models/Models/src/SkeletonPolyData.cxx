@@ -2,12 +2,15 @@
 #include "ModelSource.h"
 #include "UnfitFile.h"
 
+#include "voxelcore/Base/Text.h"
+#include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Models/SkeletonModel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <type_traits>
 #include <utility>
 
 namespace voxelcore
@@ -36,12 +39,12 @@ CellsOf(const VtpCells & cells, std::size_t pointCount)
   return lists;
 }
 
-/** Lives came line by line, and branches may stand in another order, turned round: each is the line that has its first
- *  piece. */
+/** Lives and names came line by line, and branches may stand in another order, turned round: each is the line that has
+ *  its first piece. */
 void
-PutLivesInOrder(SkeletonPart & part, const std::vector<std::vector<ElementIndex>> & lines)
+PutInOrder(SkeletonPart & part, const std::vector<std::vector<ElementIndex>> & lines)
 {
-  if (part.lives.empty())
+  if (part.lives.empty() && part.names.empty())
   {
     return;
   }
@@ -53,13 +56,36 @@ PutLivesInOrder(SkeletonPart & part, const std::vector<std::vector<ElementIndex>
       lineOf.try_emplace(std::minmax(lines[line][i - 1], lines[line][i]), line);
     }
   }
-  std::vector<BranchLife> lives;
-  for (std::size_t branch = 0; branch < part.graph.BranchCount(); ++branch)
+  const auto put = [&](auto & values) {
+    std::decay_t<decltype(values)> inOrder;
+    for (std::size_t branch = 0; branch < part.graph.BranchCount() && !values.empty(); ++branch)
+    {
+      const auto points = part.graph.Branch(branch);
+      inOrder.push_back(values[lineOf.at(std::minmax(points[0], points[1]))]);
+    }
+    values = std::move(inOrder);
+  };
+  put(part.lives);
+  put(part.names);
+}
+
+/** Of a field array with lines "cell name". */
+std::map<std::size_t, std::string>
+ReadBranchNames(ModelSource & file, std::size_t count)
+{
+  std::map<std::size_t, std::string> names;
+  for (const std::string & line : SplitText(file.ReadText("FieldData", "BranchNames"), '\n'))
   {
-    const auto points = part.graph.Branch(branch);
-    lives.push_back(part.lives[lineOf.at(std::minmax(points[0], points[1]))]);
+    const std::size_t blank = line.find(' ');
+    const auto        cell = ParseInteger(std::string_view(line).substr(0, blank));
+    RequireFit(line.empty() || (cell && *cell >= 0 && static_cast<std::size_t>(*cell) < count && blank != line.npos),
+               "its BranchNames are damaged");
+    if (!line.empty())
+    {
+      names[static_cast<std::size_t>(*cell)] = line.substr(blank + 1);
+    }
   }
-  part.lives = std::move(lives);
+  return names;
 }
 
 SkeletonModel
@@ -177,6 +203,8 @@ ReadSkeleton(ModelSource & file)
     RequireFit(lowest.size() == labels.size() && highest.size() == labels.size(), "its arrays differ in length");
     RequireFit(areLengths(lowest, 1) && areLengths(highest, 1), "a threshold of a branch is not within 0 and 1");
   }
+  const auto names =
+    file.Has("FieldData", "BranchNames") ? ReadBranchNames(file, labels.size()) : std::map<std::size_t, std::string>();
   std::vector<std::vector<std::vector<ElementIndex>>> branches(model.parts.size());
   forCells([&](const auto * list, const auto & points, std::size_t cell, std::size_t part) {
     std::vector<ElementIndex> own;
@@ -188,6 +216,11 @@ ReadSkeleton(ModelSource & file)
       if (!lowest.empty())
       {
         model.parts[part].lives.push_back({ lowest[cell], highest[cell] });
+      }
+      if (!names.empty())
+      {
+        const auto name = names.find(cell);
+        model.parts[part].names.push_back(name == names.end() ? std::string() : name->second);
       }
       branches[part].push_back(std::move(own));
     }
@@ -201,7 +234,7 @@ ReadSkeleton(ModelSource & file)
   for (std::size_t part = 0; part < model.parts.size(); ++part)
   {
     SortBranches(model.parts[part].graph, branches[part], false);
-    PutLivesInOrder(model.parts[part], branches[part]);
+    PutInOrder(model.parts[part], branches[part]);
   }
   if (file.Has("FieldData", "Provenance"))
   {
@@ -217,6 +250,14 @@ HasLives(const SkeletonModel & model)
 {
   return std::any_of(model.parts.begin(), model.parts.end(), [](const SkeletonPart & part) {
     return !part.lives.empty();
+  });
+}
+
+bool
+HasNames(const SkeletonModel & model)
+{
+  return std::any_of(model.parts.begin(), model.parts.end(), [](const SkeletonPart & part) {
+    return !part.names.empty();
   });
 }
 
@@ -283,6 +324,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
   std::vector<std::int64_t> pointLabels;
   std::vector<std::int64_t> contacts;
   std::string               names;
+  std::vector<std::string>  branchNames; // behind those of verts, of which all come first
   for (const SkeletonPart & part : model.parts)
   {
     const SkeletonGraph & graph = part.graph;
@@ -313,6 +355,7 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
     for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
     {
       add(1, part, firstPoint, graph.Branch(branch), 0, static_cast<std::int64_t>(branch));
+      branchNames.push_back(part.names.empty() ? std::string() : part.names[branch]);
     }
     for (std::size_t face = 0; face < graph.FaceCount(); ++face)
     {
@@ -334,6 +377,17 @@ WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model
     content.texts.emplace_back("LabelNames", names);
     content.pointArrays.emplace_back("Label", std::move(pointLabels));
     content.pointArrays.emplace_back("Contact", std::move(contacts));
+  }
+  if (HasNames(model))
+  {
+    std::string lines;
+    for (std::size_t branch = 0; branch < branchNames.size(); ++branch)
+    {
+      lines += branchNames[branch].empty()
+                 ? ""
+                 : std::to_string(data[0].branchId.size() + branch) + " " + branchNames[branch] + "\n";
+    }
+    content.texts.emplace_back("BranchNames", lines);
   }
   const auto addCells = [&](const char * name, auto member) {
     auto all = data[0].*member;

@@ -60,6 +60,11 @@ constexpr auto kLifeColumns = std::to_array<Column>({
   { "persistence", "", "the difference" },
 });
 
+// Where a person gave some, behind all others.
+constexpr auto kNameColumns = std::to_array<Column>({
+  { "branch_name", "", "given to the branch by --edits" },
+});
+
 // AnalyzeSkeleton's names where it has the number.
 constexpr auto kSummaryColumns = std::to_array<Column>({
   kLabelColumn,
@@ -153,10 +158,20 @@ CsvField(const std::string & given)
 void
 WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, HeadUnits units)
 {
-  TextFile          file(path, tableDigits);
-  const bool        hasLives = HasLives(model);
-  const std::string head = HeadLine(kBranchColumns, units);
-  file << (hasLives ? head.substr(0, head.size() - 1) + "," + HeadLine(kLifeColumns, units) : head);
+  TextFile    file(path, tableDigits);
+  const bool  hasLives = HasLives(model);
+  const bool  hasNames = HasNames(model);
+  std::string head = HeadLine(kBranchColumns, units);
+  const auto  widen = [&](const std::string & further) { head.replace(head.size() - 1, 1, "," + further); };
+  if (hasLives)
+  {
+    widen(HeadLine(kLifeColumns, units));
+  }
+  if (hasNames)
+  {
+    widen(HeadLine(kNameColumns, units));
+  }
+  file << head;
   for (const SkeletonPart & part : model.parts)
   {
     for (std::size_t branch = 0; branch < part.table.branches.size(); ++branch)
@@ -187,6 +202,10 @@ WriteBranchCsv(const std::filesystem::path & path, const SkeletonModel & model, 
       {
         const BranchLife & life = part.lives[branch];
         file << "," << life.lowest << "," << life.highest << "," << life.Persistence();
+      }
+      if (hasNames)
+      {
+        file << "," << CsvField(part.names.empty() ? std::string() : part.names[branch]);
       }
       file << "\n";
     }
@@ -290,9 +309,10 @@ WriteContactsCsv(const std::filesystem::path & path, const SkeletonModel & model
 }
 
 std::string
-SkeletonColumnsJson(SpatialUnit unit, bool network, bool lives)
+SkeletonColumnsJson(SpatialUnit unit, bool network, bool lives, bool names)
 {
-  const std::span<const Column> further(kLifeColumns.data(), lives ? kLifeColumns.size() : 0);
+  std::vector<Column> further(kLifeColumns.begin(), kLifeColumns.begin() + (lives ? kLifeColumns.size() : 0));
+  further.insert(further.end(), kNameColumns.begin(), kNameColumns.begin() + (names ? kNameColumns.size() : 0));
 
   std::vector<std::pair<const char *, std::string>> tables{ { "branches", ColumnsJson(kBranchColumns, unit, further) },
                                                             { "summary", ColumnsJson(kSummaryColumns, unit) } };

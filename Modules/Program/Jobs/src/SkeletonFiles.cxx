@@ -217,7 +217,7 @@ SkeletonFiles::Columns(SpatialUnit unit) const
     file = file.empty() ? text : JoinedTables(file, text);
   };
   const fs::path    tables = m_ToFolder ? SkeletonTablesPath(m_Output, m_Input) : m_Output;
-  const std::string ofSkeletons = SkeletonColumnsJson(unit, m_Targets.network, m_HasLives);
+  const std::string ofSkeletons = SkeletonColumnsJson(unit, m_Targets.network, m_HasLives, m_HasNames);
   if (Wants("csv"))
   {
     add(tables, ofSkeletons);
@@ -326,6 +326,7 @@ SkeletonFiles::Add(CoreReport &               report,
   const fs::path    output = m_ToFolder ? FolderTarget(record.label, record.component) : m_Output;
   skeleton.output = output.string();
   m_HasLives = m_HasLives || !part.lives.empty();
+  m_HasNames = m_HasNames || !part.names.empty();
   for (const LoopCut & cut : skeleton.cuts)
   {
     notes.push_back(text + CutText(cut, report.input.geometry.unit));

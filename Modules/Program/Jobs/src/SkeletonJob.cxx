@@ -128,6 +128,7 @@ CombinedRequest(const BranchRequest & before, const BranchRequest & now)
   all.pruneRadii = std::max(now.pruneRadii, before.pruneRadii);
   all.cutLoops = now.cutLoops || before.cutLoops;
   all.splitAtJunctions = now.splitAtJunctions || before.splitAtJunctions;
+  all.realLoops = before.realLoops;
   return all;
 }
 
@@ -178,6 +179,8 @@ MeasureAgain(std::vector<SkeletonPart> &   parts,
   request.skeleton = *report.skeleton;
   request.skeleton->branches = now;
   RequireLengthsOf(name, report.input.geometry.unit, request);
+  BranchRequest cut = now;
+  cut.realLoops = report.skeleton->branches.realLoops;
   report.skeleton->branches = CombinedRequest(report.skeleton->branches, now);
   const Vector3 & spacing = report.input.geometry.spacing;
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -195,11 +198,12 @@ MeasureAgain(std::vector<SkeletonPart> &   parts,
     if (length || now.pruneRadii > 0 || now.cutLoops || now.splitAtJunctions)
     {
       part.lives.clear(); // they are those of other branches
+      part.names.clear();
     }
     PruneBranches(part.graph, { length ? inMm(*length) : 0, now.pruneRadii });
     CertifiedSkeleton skeleton{ std::move(part), record.skeleton->topology, {}, std::move(record.skeleton->border) };
     CutAndMeasure(skeleton,
-                  now,
+                  cut,
                   InMeanVoxels(report.skeleton->standOut, report.parameters.weights, spacing, record.box));
     part = TakeSkeleton(std::move(skeleton), record);
   }

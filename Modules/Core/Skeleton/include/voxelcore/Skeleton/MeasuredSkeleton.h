@@ -81,6 +81,7 @@ struct MeasuredSkeleton
 
   std::optional<SkeletonNetwork> network{}; ///< of several labels; `label` is then that of their union
   std::vector<BranchLife>        lives{};   ///< of a map of probabilities, per branch; else empty
+  std::vector<std::string>       names{};   ///< per branch, where a person gave some; else empty
 };
 
 /** The part of a network that is of each of its labels, in their order, measured by itself: nodes where it meets others

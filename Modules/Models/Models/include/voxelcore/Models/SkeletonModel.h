@@ -30,6 +30,10 @@ struct SkeletonModel
 bool
 HasLives(const SkeletonModel & model);
 
+/** Whether a person gave names to some of its branches. */
+bool
+HasNames(const SkeletonModel & model);
+
 /** Of a part whose branches have lives per point the highest threshold of those it is on; empty without lives. */
 std::vector<double>
 PointConfidence(const SkeletonPart & part);
@@ -40,12 +44,13 @@ PointConfidence(const SkeletonPart & part);
  *  surfaces), and of branches Length, Tortuosity, Level, Strahler (0 elsewhere); where they have lives
  *  LowestThreshold, HighestThreshold and Persistence, the difference. Of a network Label is that of each
  *  branch; there are the point arrays Label and Contact (1 where labels meet), too, and the field array LabelNames, a
- *  line "value name" a label. Equal models give equal bytes. \throws OutputError */
+ *  line "value name" a label. Where branches have names there is the field array BranchNames, a line "cell name" for
+ *  each that has one. Equal models give equal bytes. \throws OutputError */
 void
 WriteSkeletonVtp(const std::filesystem::path & path, const SkeletonModel & model);
 
 /** Reads what WriteSkeletonVtp wrote, also where another program saved it again, as ReadModel does with
- *  Precision::AsSaved; names and tables are empty. \throws InputError */
+ *  Precision::AsSaved; names of labels and tables are empty. \throws InputError */
 SkeletonModel
 ReadSkeletonVtp(const std::filesystem::path & path);
 
@@ -106,8 +111,8 @@ std::string
 CsvField(const std::string & text);
 
 /** The data dictionary of the tables as JSON: meaning and unit of each column. `network`: with that of contacts;
- *  `lives`: with columns of lives. */
+ *  `lives`, `names`: with the columns that these have. */
 std::string
-SkeletonColumnsJson(SpatialUnit unit, bool network = false, bool lives = false);
+SkeletonColumnsJson(SpatialUnit unit, bool network = false, bool lives = false, bool names = false);
 
 } // namespace voxelcore

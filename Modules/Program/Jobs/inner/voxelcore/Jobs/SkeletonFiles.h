@@ -112,6 +112,7 @@ private:
   OutputTransaction &      m_Transaction;
   SkeletonModel            m_Model; ///< not written yet
   bool                     m_HasLives = false;
+  bool                     m_HasNames = false;
   MedialModel              m_Surfaces;  ///< not written yet, for .ma
   SkeletonModel            m_AllLabels; ///< for tables of a folder
   std::vector<std::size_t> m_Labels;    ///< of m_Model, in the report
