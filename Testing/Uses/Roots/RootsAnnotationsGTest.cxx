@@ -66,7 +66,31 @@ TEST_F(RootsAnnotations, EditedByHandAreReadBack)
   EXPECT_EQ(hung.model.roots.axes[0].children, axes[0].children + (axes[leaf].parent == 0 ? 0 : 1));
 }
 
-TEST_F(RootsAnnotations, ThatFitNoRootAreRefused)
+TEST_F(RootsAnnotations, ThatFitNoRootAreToldALineEachAndLeftOut)
+{
+  Scan("a.nrrd");
+  std::ofstream(At("a.csv"))
+    << "root,x,y,z,edit,name\n999,,,,remove,\n5,-500,0,0,remove,\n1,,,,parent 999,\n2,-500,0,0,,last\n";
+  const RootsResult found = Roots("a.nrrd", "out/");
+  const RootsResult edited = Roots("a.nrrd", "edited/", { { "edits", At("a.csv") } });
+  EXPECT_EQ(edited.model.roots.axes.size(), found.model.roots.axes.size());
+  std::vector<std::string> told;
+  for (const std::string & warning : edited.warnings)
+  {
+    if (warning.find("' is left out: ") != std::string::npos)
+    {
+      told.push_back(warning.substr(warning.find(": line") + 2));
+    }
+  }
+  EXPECT_EQ(told,
+            (std::vector<std::string>{ "line 2: 'remove' is left out: there is no such root",
+                                       "line 3: 'remove' is left out: no root ends there",
+                                       "line 4: 'parent 999' is left out: the other root is not there",
+                                       "line 5: 'last' is left out: no root ends there" }));
+  EXPECT_EQ(Bytes("edited/roots.csv"), Bytes("out/roots.csv"));
+}
+
+TEST_F(RootsAnnotations, ThatAreUnfitAreRefused)
 {
   Scan("a.nrrd");
   const auto refused = [&](const std::string & name, const std::string & text, const std::string & why) {
@@ -85,10 +109,8 @@ TEST_F(RootsAnnotations, ThatFitNoRootAreRefused)
   };
   refused("a.csv", "", "empty");
   refused("a.csv", "a,b\n1,2\n", "columns");
-  refused("a.csv", "root,edit\n999,remove\n", "no such root");
   refused("a.csv", "root,edit\n1,remove it\n", "line 2");
   refused("a.csv", "root,edit\n1,parent 1\n", "from itself");
-  refused("a.csv", "root,x,y,z,edit\n1,-500,0,0,remove\n", "no root ends there");
   refused("a.csv", "root,x,y,z,edit\n1,nan,0,0,remove\n", "coordinate");
   refused("a.csv", "root,edit\n1,stem\n1,remove\n", "twice");
   refused("a.mrk.json", "{", "point list");

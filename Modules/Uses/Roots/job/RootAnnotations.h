@@ -29,12 +29,14 @@ std::vector<RootAnnotation>
 ReadRootAnnotations(const std::filesystem::path & path);
 
 /** What they say of these roots: each is the one whose tip is nearest, and no farther than its diameter there; without
- *  a place, the one with its number. \throws InputError for one that is not there, naming the place in `path` */
+ *  a place, the one with its number. Those that are not there are told in `misfits`, a line each. \throws InputError
+ *  for a number that stands twice, naming the place in `path` */
 std::vector<RootEdit>
 EditsOf(const std::vector<RootAnnotation> & annotations,
         const std::filesystem::path &       path,
         const SkeletonGraph &               graph,
-        const RootHierarchy &               roots);
+        const RootHierarchy &               roots,
+        std::vector<std::string> &          misfits);
 
 /** Roots as they were found, what was said of them, and what became of them. */
 class RootEditing
@@ -47,9 +49,10 @@ public:
   const RootHierarchy &
   operator()(const SkeletonGraph & graph, const RootHierarchy & roots, const BodyFrame & frame);
 
-  RootHierarchy         found;
-  std::vector<RootEdit> edits;
-  EditedRoots           edited;
+  RootHierarchy            found;
+  std::vector<RootEdit>    edits;
+  EditedRoots              edited;
+  std::vector<std::string> misfits; ///< what was left out, a line each
 
 private:
   std::filesystem::path       m_Path;

@@ -368,6 +368,7 @@ RunRootsJob(const RootsOptions & options, const JobContext & given)
                            unit.Name() +
                            " bridged, where two ends of a torn root face each other; the mask has them still");
   }
+  result.warnings.insert(result.warnings.end(), editing.misfits.begin(), editing.misfits.end());
   if (!editing.edits.empty())
   {
     result.notes.push_back(Counted(editing.edits.size(), "root", "roots") + " edited or named as " +
