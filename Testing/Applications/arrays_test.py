@@ -19,6 +19,7 @@ core body.nrrd --split-components -o core.vtp --table table.csv
 core body.nrrd --tolerance 0 --keep-edges -o whole.vtp
 skeleton vessels.nrrd --network --sections 4vox --flow flow.csv --centerlines centerlines.vtp --also csv -o net.vtp
 skeleton plant.nrrd --probability --thresholds 0.3,0.5 --also csv -o sure.vtp
+skeleton plant.nrrd --edits edits.csv --also csv -o named.vtp
 straighten vessels.nrrd net.vtp --branch 0 -o tube.nrrd --table straight.csv --points points.csv --mapped mapped.csv
 roots plant.nrrd --no-pictures -o roots/
 thickness body.nrrd -o map.nrrd --table thickness.csv --surface surface.vtp --medial medial.vtp
@@ -28,7 +29,7 @@ batch body.nrrd -o cohort/
 """
 
 # Which files hold the arrays that the page names by kind.
-KINDS = {"medial": ["core.vtp", "whole.vtp", "medial.vtp"], "skeleton": ["net.vtp", "sure.vtp"],
+KINDS = {"medial": ["core.vtp", "whole.vtp", "medial.vtp"], "skeleton": ["net.vtp", "sure.vtp", "named.vtp"],
          "sheets": ["sheets.vtp"], "surface": ["surface.vtp"], "sections": ["net_sections.vtp"],
          "centerlines": ["centerlines.vtp"]}  # fmt: skip
 
@@ -59,9 +60,12 @@ OF_REPORTS = {"cohort/cases.csv": ("cohort/columns.json", "cases"),
 # Told of by their columns file alone.
 PLAIN = {"sure_branches.csv": ("sure_columns.json", "branches"), "sure_summary.csv": ("sure_columns.json", "summary"),
          "sure_thresholds.csv": ("sure_thresholds_columns.json", "thresholds"),
+         "named_branches.csv": ("named_columns.json", "branches"),
+         "named_summary.csv": ("named_columns.json", "summary"),
+         "named_annotations.csv": ("named_annotations_columns.json", "annotations"),
          "table.csv": ("table_columns.json", "labels"), "study.csv": ("study_columns.json", "resolutions")}
 # Written by this test; copies of what other commands write.
-INPUTS = {"points.csv"}
+INPUTS = {"edits.csv", "points.csv"}
 FIRST = ("label", "name", "part")  # told once for all tables
 
 
@@ -72,6 +76,7 @@ def check(condition, message):
 
 def run_commands(program, *further):
     Path("points.csv").write_text("x,y,z\n20,20,20\n")
+    Path("edits.csv").write_text("branch,x,y,z,name\n,16,16,16,stem\n")
     corners = [(c % 2, c // 2 % 2, c // 4) for c in range(8)]
     sides = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     faces = [f"4 {a} {b} {c} {d}" for a, b, c, d in sides]

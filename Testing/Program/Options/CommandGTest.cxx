@@ -1,3 +1,4 @@
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Options/AssembleCommands.h"
 #include "voxelcore/Options/Command.h"
 
@@ -140,6 +141,9 @@ TEST(Command, AnExtensionAddsOptionsAndRunsWhereItIsAskedFor)
   const ParameterValues wide{ { "wide", "true" } };
   EXPECT_EQ(RunCommand(all[1], { plain, "", 1, context, all, {} }).text, "one");
   EXPECT_EQ(RunCommand(all[1], { wide, "", 1, context, all, {} }).text, "more");
+  const std::array<const Extension *, 2> two{ &kMore, &kMore };
+  const auto                             both = AssembleCommands(commands, two);
+  EXPECT_THROW(RunCommand(both[1], { wide, "", 1, context, both, {} }), UsageError);
 }
 
 TEST(Command, ABatchTakesWhatItsCasesTakeButPathsAndAFlagForEachKind)

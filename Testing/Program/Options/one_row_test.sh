@@ -24,7 +24,7 @@ grep -q trial-option $rows || fail "the row was not put in"
 
 street=source/Modules/Uses/Trial
 mkdir -p $street/command
-sed -i 's/ Roots Compare Cohort)/ Roots Compare Trial Cohort)/' source/Modules/CMake/VoxelCoreRooms.cmake
+sed -i 's/ Cohort)/ Trial Cohort)/' source/Modules/CMake/VoxelCoreRooms.cmake
 cat >$street/CMakeLists.txt <<'CMAKE'
 add_library(VoxelCoreTrial INTERFACE)
 add_library(VoxelCore::Trial ALIAS VoxelCoreTrial)

@@ -1,5 +1,6 @@
 #include "voxelcore/Options/Command.h"
 
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Options/AssembleCommands.h"
 #include "voxelcore/Options/ParameterReader.h"
@@ -22,6 +23,15 @@ Add(std::vector<Parameter> & rows, const Parameter & row)
   {
     rows.insert(ranges::find_if(rows, [&](const Parameter & other) { return other.group > row.group; }), row);
   }
+}
+
+/** The first of an extension's options that is given. */
+std::string
+FlagGiven(const Extension & extension, const ParameterValues & values)
+{
+  const auto row =
+    ranges::find_if(extension.rows, [&](const Parameter & parameter) { return values.contains(parameter.name); });
+  return row == extension.rows.end() ? std::string() : std::string(row->flags);
 }
 
 } // namespace
@@ -84,14 +94,19 @@ AssembleCommands(std::span<const Command * const> commands, std::span<const Exte
 Outcome
 RunCommand(const Command & command, const Invocation & call)
 {
+  const Extension * asked = nullptr;
   for (const Extension * const one : command.extensions)
   {
     if (one->isAsked(call.values))
     {
-      return one->run(call);
+      if (asked != nullptr)
+      {
+        throw UsageError(FlagGiven(*asked, call.values) + " does not go with " + FlagGiven(*one, call.values));
+      }
+      asked = one;
     }
   }
-  return command.run(call);
+  return asked != nullptr ? asked->run(call) : command.run(call);
 }
 
 const Parameter *

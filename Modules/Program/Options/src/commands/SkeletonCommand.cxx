@@ -157,6 +157,11 @@ and --html write the folder all at once.
 and as OUT.vtp that of the threshold that keeps most of what is stable, without unstable ends and pieces. Its
 arrays LowestThreshold, HighestThreshold and Persistence tell over which thresholds each branch lives.
 
+--edits does what a person filled in beside a branch or a place of --annotations: cut (the body ends here), remove
+(the branch and what springs from it), join X Y Z (this tip to that one), path X Y Z; .. (a branch from here), root
+(of the hierarchy), background (this voxel). The skeleton is that of the edited body. Edits hold for another
+threshold or version as long as the tree passes there; those that do not fit are told and left out.
+
 Examples:
   voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top
   voxelcore skeleton core.vtp -o skeleton.vtp --report skeleton.json
@@ -164,7 +169,9 @@ Examples:
   voxelcore skeleton vessels.seg.nrrd --prune-branches 1.5r --also mrk.json -o vessels.vtp
   voxelcore skeleton circle-of-willis.nii.gz --network --also csv -o network.vtp
   voxelcore skeleton bone.nrrd --plates 4vox -o rods-and-plates.vtp
-  voxelcore skeleton --probability softmax.nrrd --thresholds 0.3,0.5,0.7 -o sure.vtp)";
+  voxelcore skeleton --probability softmax.nrrd --thresholds 0.3,0.5,0.7 -o sure.vtp
+  voxelcore skeleton root.nrrd -o found.vtp --annotations
+  voxelcore skeleton root.nrrd -o corrected.vtp --edits found_annotations.csv)";
 
 Outcome
 RunSkeleton(const Invocation & call)

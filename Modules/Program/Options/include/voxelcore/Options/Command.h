@@ -119,7 +119,7 @@ struct Command
 std::span<const Command>
 Commands();
 
-/** Runs the command, or the extension of it that is asked for. \throws what its job throws */
+/** Runs the command, or the extension of it that is asked for. \throws UsageError where two are, and what jobs throw */
 Outcome
 RunCommand(const Command & command, const Invocation & call);
 
