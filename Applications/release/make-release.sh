@@ -29,7 +29,8 @@ while [ $# -gt 0 ]; do
   shift
 done
 for part in ${parts//,/ }; do
-  [[ $part =~ ^(source|wheel|packages|${systems// /|}|web)$ ]] || { echo "make-release.sh: unknown part '$part'" >&2; exit 2; }
+  [[ $part =~ ^(source|wheel|packages|${systems// /|}|web)$ ]] ||
+    { echo "make-release.sh: unknown part '$part'" >&2; exit 2; }
 done
 has() { [[ ,$parts, == *,$1,* ]]; }
 
