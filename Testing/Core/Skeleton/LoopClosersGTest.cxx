@@ -49,15 +49,15 @@ TEST(LoopClosers, NodesThatCountAsOneCloseALoopBetweenThem)
   EXPECT_EQ(FindLoopClosers(graph, { 0, 0 }, { 3 }), std::vector<std::uint8_t>{ 1 });
 }
 
-// Two triangles over one side: 0-1-2 of radii 3, 3, 1, and 1-2-3 whose sides are of radius 2.
+// Two triangles over the thinnest side, whose other sides are 4 and 3 thick, and 2.5 and 2.
 TEST(LoopClosers, OfTheLoopsThroughABranchTheThickestIsFoundAndIsNotCut)
 {
   GraphBuilder builder;
   builder.Line({ 0, 0, 0 }, { 30, 0, 0 }, 4);
   builder.Line({ 0, 0, 0 }, { 0, 30, 0 }, 3);
   builder.Line({ 30, 0, 0 }, { 0, 30, 0 }, 1);
+  builder.Line({ 30, 30, 0 }, { 0, 30, 0 }, 2.5); // first, as a node has the radius of its first line
   builder.Line({ 30, 0, 0 }, { 30, 30, 0 }, 2);
-  builder.Line({ 30, 30, 0 }, { 0, 30, 0 }, 2.5);
   builder.Line({ 30, 30, 0 }, { 60, 60, 0 }, 0.5);
   const SkeletonGraph graph = builder.Graph();
   const auto          radius = [&](std::size_t branch) { return graph.radius[graph.Branch(branch)[1]]; };

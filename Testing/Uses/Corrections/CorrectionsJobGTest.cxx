@@ -5,6 +5,7 @@
 #include "VoxelCoreTesting/Shapes.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Models/SkeletonModel.h"
 #include "voxelcore/Report/Annotations.h"
 
@@ -98,7 +99,7 @@ TEST_F(CorrectionsJob, EditsLastWhicheverFileTheyAreReadFrom)
   EXPECT_NE(LeftOut(edited)[0].find("line 6: 'remove' is left out: no branch passes there"), std::string::npos);
   EXPECT_EQ(ReadSkeletonVtp(At("e.vtp")).parts.at(0).names.size(),
             edited.report.labels.at(0).skeleton->numbers.branches);
-  EXPECT_NE(Bytes("e.vtp").find(" artery\n"), std::string::npos);
+  EXPECT_EQ(ranges::count(ReadSkeletonVtp(At("e.vtp")).parts.at(0).names, "artery"), 1);
   const auto & record = edited.report.labels.at(0);
   EXPECT_EQ(record.shape.betti, (std::array<std::int64_t, 3>{ 2, 0, 0 }));
   EXPECT_EQ(record.skeleton->topology, record.shape);
@@ -119,14 +120,9 @@ TEST_F(CorrectionsJob, WhatIsRecordedGivesTheSameBody)
   Run("a.nrrd", "e.vtp", { { "edits", At("edits.csv") } });
   // --edits is no part of what is recorded: the voxels are.
   const SkeletonModel edited = ReadSkeletonVtp(At("e.vtp"));
-  std::ofstream       file(At("changes.txt"));
-  for (const auto & run : nlohmann::json::parse(edited.provenance).at("parameters").at("change_voxels"))
-  {
-    file << run.get<std::string>() << "\n";
-  }
-  file.close();
-  RunSkeletonJob(SkeletonOptionsFrom(
-    { { "scan", At("a.nrrd") }, { "output", At("g.vtp") }, { "change-voxels", At("changes.txt") } }));
+  SkeletonOptions     options = SkeletonOptionsFrom({ { "scan", At("a.nrrd") }, { "output", At("g.vtp") } });
+  options.edits.change = ParseProvenance(edited.provenance, "e.vtp").parameters.edits.change;
+  RunSkeletonJob(options);
   EXPECT_EQ(Bytes("g.vtp"), Bytes("e.vtp"));
 }
 
@@ -148,15 +144,13 @@ TEST_F(CorrectionsJob, ALoopThatIsRealIsNotCut)
   EXPECT_EQ(Run("rings.nrrd", "cut.vtp", cutting).report.labels.at(0).skeleton->numbers.cycles, 0);
   Say("edits.csv", ",,3,15,6,loop,left ring\n,,32,24,6,loop,\n");
   const auto edited = Run("rings.nrrd", "real.vtp", { { "cut-loops", "true" }, { "edits", At("edits.csv") } });
-  EXPECT_EQ(edited.report.labels.at(0).skeleton->numbers.cycles, 2 - static_cast<int>(LeftOut(edited).size()));
+  EXPECT_EQ(edited.report.labels.at(0).skeleton->numbers.cycles, 2);
+  EXPECT_TRUE(LeftOut(edited).empty());
   EXPECT_EQ(edited.report.labels.at(0).skeleton->topology.betti, (std::array<std::int64_t, 3>{ 1, 2, 0 }));
   Say("one.csv", ",,3,15,6,loop,\n");
-  Run("rings.nrrd", "one.vtp", { { "cut-loops", "true" }, { "edits", At("one.csv") } });
-  EXPECT_EQ(nlohmann::json::parse(ReadSkeletonVtp(At("one.vtp")).provenance)
-              .at("parameters")
-              .at("skeleton")
-              .at("real_loops")
-              .size(),
+  const auto one = Run("rings.nrrd", "one.vtp", { { "cut-loops", "true" }, { "edits", At("one.csv") } });
+  EXPECT_EQ(one.report.labels.at(0).skeleton->numbers.cycles, 1);
+  EXPECT_EQ(nlohmann::json::parse(ReadSkeletonVtp(At("one.vtp")).provenance).at("skeleton").at("real_loops").size(),
             1U);
   Run("rings.nrrd", "two.vtp", { { "cut-loops", "true" }, { "edits", At("one_annotations.csv") } });
   EXPECT_EQ(Bytes("two.vtp"), Bytes("one.vtp"));
@@ -177,7 +171,7 @@ TEST_F(CorrectionsJob, DamagedFilesOfEditsAreReadOrRefused)
   {
     const std::string whole = Bytes(name);
     const std::string damaged = At("damaged" + fs::path(name).extension().string());
-    for (int i = 0; i < 2000; ++i)
+    for (int i = 0; i < 300; ++i)
     {
       std::string bytes = whole;
       for (int change = 1 + static_cast<int>(random() % 3); change > 0 && !bytes.empty(); --change)

@@ -38,8 +38,12 @@ constexpr std::size_t kMostPlaces = 1000; // of a path that a person has drawn
 
 /** Radii out to which a cut goes: sections are seldom flatter than the first. */
 constexpr std::array<double, 2> kReach{ 2, 4 };
-/** Voxel diagonals by which a line is made thicker where beside rough walls it leaves holes. */
-constexpr std::array<double, 3> kThicker{ 0, 0.5, 1 };
+/** Parts of its radius, and voxel diagonals, that a line is thick: thicker where beside rough walls it leaves holes, then
+ *  thinner where it touches others on its way. */
+constexpr std::array<std::pair<double, double>, 5> kThick{ { { 1, 0 }, { 1, 0.5 }, { 1, 1 }, { 0.5, 0 }, { 0, 0 } } };
+/** Voxel diagonals by which the place of a tip or cut may be off, whatever the radius: ends of thin branches move by
+ *  voxels when a threshold does (for 2 % by up to three in a root one to two voxels thick). */
+constexpr double kOff = 1.5;
 
 constexpr double kRounding = 1e-9;
 
@@ -149,6 +153,12 @@ private:
     return std::max(m_Radii[point], m_Graph.radius[point]);
   }
 
+  double
+  Slack(ElementIndex point) const
+  {
+    return std::max(Radius(point), kOff * m_Diagonal);
+  }
+
   const Vector3 &
   PlaceOf(const BranchPoint & foot) const
   {
@@ -164,7 +174,7 @@ private:
     {
       const ElementIndex point = m_Graph.nodePoints[node];
       const double       away = Distance(m_Graph.positions[point], place);
-      if (m_Graph.nodeKinds[node] == NodeKind::Tip && away <= 2 * Radius(point) && away < nearest)
+      if (m_Graph.nodeKinds[node] == NodeKind::Tip && away <= 2 * Slack(point) && away < nearest)
       {
         nearest = away;
         found = point;
@@ -579,7 +589,7 @@ private:
   Cut(const BranchPoint & foot)
   {
     const Line      line = LineOf(foot.branch);
-    const LinePoint middle{ PlaceOf(foot), Radius(m_Graph.Branch(foot.branch)[foot.point]) };
+    const LinePoint middle{ PlaceOf(foot), Slack(m_Graph.Branch(foot.branch)[foot.point]) };
     // From the place on before and behind.
     std::vector<std::pair<double, std::size_t>> nearestFirst;
     for (std::size_t i = 0; i < line.size(); ++i)
@@ -698,9 +708,9 @@ private:
         return kIsGone;
       }
     }
-    for (const double more : kThicker)
+    for (const auto & [part, more] : kThick)
     {
-      auto tube = Tube(line, radius + more * m_Diagonal);
+      auto tube = Tube(line, part * radius + more * m_Diagonal);
       if (tube.empty())
       {
         return "all of its way is in the body already";

@@ -66,14 +66,16 @@ struct EditedTree
 };
 
 /** Does the edits that fit, one after the other; those left out change nothing. `tree` is that of the shape, its loops
- *  not cut. A place on a branch is one of BranchAt(), one at a tip lies within twice its radius.
+ *  not cut. A place on a branch is one of BranchAt(), one at a tip lies within twice its radius, or within three voxel
+ *  diagonals if that is more.
  *
  *  - Cut: takes out the voxels of a slab across the branch, so thick that no two touch across it, which hang together
  *    with the place, out to twice the radius or, where that does not part the body, four times; where it parts it
- *    nowhere, of a slab a little before or behind, within the radius; and what is then loose and no larger.
+ *    nowhere, of a slab a little before or behind, within the radius or one and a half voxel diagonals; and what is then
+ *    loose and no larger.
  *  - Remove: cuts at the base, as soon as that parts, from the ball at the junction on, and takes out all behind.
- *  - Join, Path: put in the voxels within the radius of their lines, and up to a voxel's diagonal more where that
- *    closes holes beside rough walls.
+ *  - Join, Path: put in the voxels within the radius of their lines; where that does not fit up to a voxel's diagonal
+ *    more, which closes holes beside rough walls, or less, which keeps off other branches.
  *  - Background: takes out the voxel.
  *
  *  Each is left out unless it changes the topology numbers (ComputeShapeTopology) as IsChangeOf() says. */
