@@ -91,7 +91,7 @@ def draw(folder, name, count, random):
         here = place(row)
         if kind == "path":
             way = [random.gauss(0, 1) for _ in range(3)]
-            long = random.uniform(4, 8) * size(row) / away(way, (0, 0, 0))
+            long = random.uniform(3, 5) * size(row) / away(way, (0, 0, 0))
             text, at = "path " + " ".join(f"{p + long * w:.4f}" for p, w in zip(here, way)), here
         elif kind == "name":
             text, at = "", here
@@ -100,7 +100,7 @@ def draw(folder, name, count, random):
             at = [p + size(row) * w for p, w in zip(here, random.choice([(1, 0, 0), (0, 1, 0), (0, 0, 1)]))]
         elif kind == "join":
             at = random.choice(tips)
-            other = sorted(tips, key=lambda tip: away(tip, at))[random.randint(1, 3)]
+            other = sorted(tips, key=lambda tip: away(tip, at))[1]
             text = "join " + " ".join(f"{p:.4f}" for p in other)
         elif kind == "loop" and loops:
             text, at = kind, place(random.choice(loops))
@@ -147,9 +147,17 @@ def main():
         out = {int(re.search(r": line (\d+):", line).group(1)) - 2 for line in told}
         for why in sorted({line.split("is left out: ")[1] for line in told}):
             print(f"#   {sum(line.endswith(why) for line in told):4} of {len(drawn)} drawn: {why}")
-        fit = [edit for number, edit in enumerate(drawn) if number not in out][:options.count]
-        write(at("edits.csv"), fit)
-        told = run(options.program, scan, BASE, at("edited.vtp"), "--edits", at("edits.csv"))
+        pool = [edit for number, edit in enumerate(drawn) if number not in out]
+        fit, told = [], []
+        for _ in range(5):  # without the others some no longer fit
+            more = options.count - len(fit)
+            fit, pool = fit + pool[:more], pool[more:]
+            write(at("edits.csv"), fit)
+            told = run(options.program, scan, BASE, at("edited.vtp"), "--edits", at("edits.csv"))
+            if not told:
+                break
+            out = {int(re.search(r": line (\d+):", line).group(1)) - 2 for line in told}
+            fit = [edit for number, edit in enumerate(fit) if number not in out]
         tell(name, BASE, fit, told)
         failed |= len(told) > 0 or len(fit) < options.count
         for file in ("edited_annotations.csv", "edited_annotations.mrk.json"):

@@ -36,10 +36,10 @@ constexpr std::array<std::pair<TreeEdit::Kind, const char *>, 7> kWords{ { { Tre
 
 constexpr std::size_t kMostPlaces = 1000; // of a path that a person has drawn
 
-/** Radii out to which a cut goes: sections are seldom flatter than the first. */
-constexpr std::array<double, 2> kReach{ 2, 4 };
-/** Parts of its radius, and voxel diagonals, that a line is thick: thicker where beside rough walls it leaves holes, then
- *  thinner where it touches others on its way. */
+/** Radii out to which a cut goes: sections are seldom flatter than the first; the last keeps off what touches it. */
+constexpr std::array<double, 3> kReach{ 2, 4, 1.4 };
+/** Parts of its radius, and voxel diagonals, that a line is thick: thicker where beside rough walls it leaves holes,
+ *  then thinner where it touches others on its way. */
 constexpr std::array<std::pair<double, double>, 5> kThick{ { { 1, 0 }, { 1, 0.5 }, { 1, 1 }, { 0.5, 0 }, { 0, 0 } } };
 /** Voxel diagonals by which the place of a tip or cut may be off, whatever the radius: ends of thin branches move by
  *  voxels when a threshold does (for 2 % by up to three in a root one to two voxels thick). */

@@ -70,9 +70,9 @@ struct EditedTree
  *  diagonals if that is more.
  *
  *  - Cut: takes out the voxels of a slab across the branch, so thick that no two touch across it, which hang together
- *    with the place, out to twice the radius or, where that does not part the body, four times; where it parts it
- *    nowhere, of a slab a little before or behind, within the radius or one and a half voxel diagonals; and what is then
- *    loose and no larger.
+ *    with the place, out to twice the radius or, where that does not part the body, four or 1.4 times; where none of
+ *    them does, of a slab a little before or behind, within the radius or one and a half voxel diagonals; and what is
+ *    then loose and no larger.
  *  - Remove: cuts at the base, as soon as that parts, from the ball at the junction on, and takes out all behind.
  *  - Join, Path: put in the voxels within the radius of their lines; where that does not fit up to a voxel's diagonal
  *    more, which closes holes beside rough walls, or less, which keeps off other branches.
