@@ -45,8 +45,9 @@ for way in program package; do
   fi
   rm -rf "${scratch:?}/$way"
   mkdir "$scratch/$way"
-  paraview "$source/Testing/ParaView/plugin_test.py" "$plugin" "$build/bin/voxelcore" "$scan" 37 "$scratch/$way" "$way" \
-    >"$scratch/$way.log" 2>&1 || { cat "$scratch/$way.log" >&2; fail "the filters do not do what the program does ($way)"; }
+  paraview "$source/Testing/ParaView/plugin_test.py" "$plugin" "$build/bin/voxelcore" "$scan" 37 "$scratch/$way" \
+    "$way" >"$scratch/$way.log" 2>&1 ||
+    { cat "$scratch/$way.log" >&2; fail "the filters do not do what the program does ($way)"; }
   grep -qx done "$scratch/$way.log" || fail "the test by the $way did not come to its end"
   grep -q '^voxelcore: /nowhere/voxelcore: it is no program;' "$scratch/$way.log" || fail "a wrong program is not named"
   grep "^$way:" "$scratch/$way.log"

@@ -1,5 +1,5 @@
-"""The plugin's three filters on a real scan, in ParaView: the arrays of the program's files, bit for bit, by the program
-and by the Python package.
+"""The plugin's three filters on a real scan, in ParaView: the arrays of the program's files, bit for bit, by the
+program and by the Python package.
 usage: plugin_test.py PLUGIN.xml PROGRAM SCAN.nii.gz LABEL FOLDER WAY    SCAN: uint8; WAY: program or package"""
 
 import gzip
@@ -48,7 +48,8 @@ def program_makes(command, name, *options, labels=label):
 
 def arrays(data, of_points=True):
     attributes = data.GetPointData() if of_points else data.GetCellData()
-    return {attributes.GetArrayName(n): vtk_to_numpy(attributes.GetArray(n)) for n in range(attributes.GetNumberOfArrays())}
+    each = [attributes.GetArray(number) for number in range(attributes.GetNumberOfArrays())]
+    return {array.GetName(): vtk_to_numpy(array) for array in each}
 
 
 def same_surface(made, path, wanted, but=()):
@@ -97,7 +98,7 @@ crop = ("--crop", "45:81,60:151,30:81")
 grey = program_makes("core", "grey.vtp", *crop, "--threshold", f"{label}:{label}", labels="all")
 same_surface(run(simple.VoxelCore, of=part, UseThreshold=1, Threshold=[int(label)] * 2), grey, {"Radius"})
 every = program_makes("core", "every.vtp", *crop, labels="all")
-# The program's file of several labels lets a last vertex never go, where that of one label has its height.
+# What never goes has a Tolerance above all others of its file: in one of several labels above those of all of them.
 same_surface(run(simple.VoxelCore, of=part, Label=0), every, {"Radius"}, ["Tolerance"] if way == "package" else [])
 
 # What cannot be is said in a line, and the output is empty.
