@@ -6,7 +6,8 @@ if(VOXELCORE_TETGEN)
   set(other "")
   set(licence "AGPL-3.0-or-later as a whole, as it is linked with TetGen; VoxelCore's own files are Apache-2.0")
   set(tetgen "
- Built with TetGen as a second engine: under the AGPL-3 as a whole. The package without -tetgen is Apache-2.0.")
+ Built with TetGen as a second engine: under the AGPL-3 as a whole.
+ The package without -tetgen is Apache-2.0.")
 else()
   set(variant "")
   set(other -tetgen)
@@ -24,7 +25,7 @@ set(summary_python "certified medial surfaces: Python module")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME voxelcore${variant})
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "VoxelCore developers <voxelcore@localhost>")
+set(CPACK_PACKAGE_CONTACT "VoxelCore developers <voxelcore@project.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -57,6 +58,7 @@ if(TARGET VoxelCoreITK)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libinsighttoolkit5-dev)
 endif()
 
+string(TIMESTAMP today "%a, %d %b %Y 00:00:00 +0000" UTC) # of SOURCE_DATE_EPOCH, where it is set
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} upper)
   set(name ${package_${component}}${variant})
@@ -72,7 +74,14 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   endif()
   set(VOXELCORE_LICENCE "${licence}")
   configure_file("${CMAKE_CURRENT_LIST_DIR}/copyright.in" "${PROJECT_BINARY_DIR}/package/${name}/copyright" @ONLY)
-  install(FILES "${PROJECT_BINARY_DIR}/package/${name}/copyright" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}"
-    COMPONENT ${component})
+  configure_file("${CMAKE_CURRENT_LIST_DIR}/changelog.in" "${PROJECT_BINARY_DIR}/package/${name}/changelog" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/package/${name}/copyright" "${PROJECT_BINARY_DIR}/package/${name}/changelog"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" COMPONENT ${component})
 endforeach()
+# Debian has these packed.
+file(WRITE "${PROJECT_BINARY_DIR}/package/pack.cmake" [=[
+file(GLOB_RECURSE files "${CPACK_TEMPORARY_DIRECTORY}/*/voxelcore*.1" "${CPACK_TEMPORARY_DIRECTORY}/*/changelog")
+execute_process(COMMAND gzip -9nf ${files} COMMAND_ERROR_IS_FATAL ANY)
+]=])
+set(CPACK_PRE_BUILD_SCRIPTS "${PROJECT_BINARY_DIR}/package/pack.cmake")
 include(CPack)

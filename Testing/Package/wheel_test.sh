@@ -16,7 +16,8 @@ fail() {
 rm -rf "$scratch"
 mkdir -p "$scratch/wheels" "$scratch/empty"
 begin=$(date +%s)
-bash "$source/Applications/Python/wheel/make-wheel.sh" "$scratch/wheels" | tee "$scratch/said"
+bash "$source/Applications/Python/wheel/make-wheel.sh" "$scratch/wheels" /usr/bin/python3 >"$scratch/said" ||
+  { tail -n 40 "$scratch/said" >&2; fail "the wheel cannot be made"; }
 echo "made in $(($(date +%s) - begin)) s"
 wheel=$(ls "$scratch"/wheels/voxelcore-*.whl)
 [ "$(stat -c %s "$wheel")" -lt 12000000 ] || fail "the wheel is larger than 12 MB"
@@ -36,6 +37,10 @@ done
 foreign=$(cd "$scratch/unpacked/voxelcore.libs" && ls | grep -E '^lib(vtk|ITK|itk|tet|X11|GL|tiff|jbig)' || true)
 [ -z "$foreign" ] || fail "the wheel carries $foreign"
 ls "$scratch"/unpacked/voxelcore-*.dist-info/LICENSE >/dev/null || fail "the wheel does not hold its licence"
+top=$(cd "$scratch/unpacked" && printf '%s ' *)
+[[ $top =~ ^voxelcore\ voxelcore-[0-9.]+\.dist-info\ voxelcore\.libs\ $ ]] || fail "the wheel holds $top"
+grep -qx 'voxelcore = voxelcore:napari.json' "$scratch"/unpacked/voxelcore-*.dist-info/entry_points.txt ||
+  fail "napari does not find its plugin"
 
 /usr/bin/python3 "$source/Testing/Package/numpy_wheel.py" "$scratch/wheels"
 /usr/bin/python3 -m venv "$scratch/clean"
@@ -80,7 +85,7 @@ done
 cd "$source/Testing/Python"
 VOXELCORE_PROGRAM=$program "$scratch/all/bin/python" -B -m pytest -q -p no:cacheprovider \
   -k "not tetgen and not cross_check" \
-  test_{arrays,exchange,images,interrupts,options,processes,pruning,results,words}.py
+  test_{arrays,exchange,images,interrupts,napari,options,processes,pruning,results,words}.py
 # And the Slicer module's work, computed by what was installed.
 VOXELCORE_PROGRAM=$program "$scratch/all/bin/python" -B -m pytest -q -p no:cacheprovider -k package \
   "$source/Testing/Slicer/logic_test.py"

@@ -10,7 +10,6 @@ readelf and patchelf.
 """
 
 import argparse
-import base64
 import hashlib
 import json
 import os
@@ -21,6 +20,8 @@ import subprocess
 import sys
 import tempfile
 import zipfile
+
+from wheel_files import write
 
 # What every Linux has that the tag names (PEP 600); all else goes into the wheel.
 GIVEN = re.compile(r"(ld-linux.*|libc|libm|libdl|librt|libpthread|libgcc_s|libstdc\+\+)\.so\.\d+$")
@@ -143,24 +144,6 @@ def bring_along(folder, package):
     }
     (sboms / "brought-along.cdx.json").write_text(json.dumps(document, indent=2) + "\n")
     return renamed
-
-
-def write(folder, path):
-    """The folder as a wheel; the same content gives the same bytes."""
-    record = next(folder.glob("*.dist-info")) / "RECORD"
-    record.unlink()
-    files = sorted(file for file in folder.rglob("*") if file.is_file())
-    lines = []
-    for file in files:
-        digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_bytes()).digest()).rstrip(b"=").decode()
-        lines.append(f"{file.relative_to(folder)},sha256={digest},{file.stat().st_size}\n")
-    record.write_text("".join(lines) + f"{record.relative_to(folder)},,\n")
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for file in [*files, record]:
-            entry = zipfile.ZipInfo(str(file.relative_to(folder)), (1980, 1, 1, 0, 0, 0))
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = (0o755 if file.suffix == ".so" or ".so." in file.name else 0o644) << 16
-            archive.writestr(entry, file.read_bytes())
 
 
 def main():
