@@ -207,11 +207,14 @@ def nine(values):
     return [float(value) for value in matrix.reshape(9)]
 
 
+_TABLE = _voxelcore.option_table()
+
+
 def rows(command, *groups):
     """The rows of the option table that are keyword arguments here, by keyword."""
     return {
         row["keyword"]: row
-        for row in _voxelcore.option_table()
+        for row in _TABLE
         if row["command"] == command and row["group"] in groups and row["keyword"]
     }
 
