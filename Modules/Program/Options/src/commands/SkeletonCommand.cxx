@@ -158,9 +158,10 @@ and as OUT.vtp that of the threshold that keeps most of what is stable, without 
 arrays LowestThreshold, HighestThreshold and Persistence tell over which thresholds each branch lives.
 
 --edits does what a person filled in beside a branch or a place of --annotations: cut (the body ends here), remove
-(the branch and what springs from it), join X Y Z (this tip to that one), path X Y Z; .. (a branch from here), root
-(of the hierarchy), background (this voxel). The skeleton is that of the edited body. Edits hold for another
-threshold or version as long as the tree passes there; those that do not fit are told and left out.
+(the branch and what springs from it), join X Y Z (this tip to that one), path X Y Z; .. radius R (a branch from
+here), root (of the hierarchy), loop (real: --cut-loops leaves it), background (this voxel). Names stand in tables and
+in the file. The skeleton is that of the edited body. Edits hold for another threshold or version as long as the tree
+passes there; those that do not fit are told and left out.
 
 Examples:
   voxelcore skeleton root.nii.gz -o root.vtp --also csv,swc --root top
