@@ -31,7 +31,7 @@ main(int argc, char ** argv)
   }
   write("voxelcore.bash", BashCompletion());
   write("_voxelcore", ZshCompletion());
-  write("options.json", OptionsJson());
+  write("options.json", OptionsJson(Commands()));
   if (!written)
   {
     std::cerr << "voxelcore_manual: " << folder.string() << ": cannot be written\n";

@@ -14,7 +14,7 @@ EM_JS(int, IsCancelledByCaller, (), { return Module["isCancelled"] && Module["is
 extern "C" EMSCRIPTEN_KEEPALIVE const char *
 ParameterTable()
 {
-  static const std::string text = voxelcore::OptionsJson();
+  static const std::string text = voxelcore::OptionsJson(voxelcore::Commands());
   return text.c_str();
 }
 

@@ -1,7 +1,5 @@
 #include "voxelcore/Options/OptionsJson.h"
 
-#include "voxelcore/Options/Command.h"
-
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -11,12 +9,12 @@ namespace voxelcore
 {
 
 std::string
-OptionsJson()
+OptionsJson(std::span<const Command> commands)
 {
   static constexpr std::array kKinds = { "input", "inputs", "output", "text", "integer", "real", "choice", "flag" };
   nlohmann::ordered_json      table{ { "commands", nlohmann::json::array() }, { "options", nlohmann::json::array() } };
   std::map<std::pair<const char *, const char *>, std::size_t> there; // a row that commands share, by its texts
-  for (const Command & command : Commands())
+  for (const Command & command : commands)
   {
     table["commands"].push_back(
       { { "name", command.name }, { "description", command.description }, { "footer", command.footer } });
