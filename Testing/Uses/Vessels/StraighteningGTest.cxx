@@ -175,7 +175,7 @@ LengthOf(const SkeletonWay & way)
 
 /** Number of the branch nearest to a place. */
 ElementIndex
-BranchAt(const SkeletonGraph & graph, const Vector3 & place)
+NearestBranch(const SkeletonGraph & graph, const Vector3 & place)
 {
   ElementIndex nearest = 0;
   double       least = std::numeric_limits<double>::infinity();
@@ -359,10 +359,10 @@ TEST(Straightening, PlacesAreMappedThereAndBack)
 TEST(Straightening, WaysGoAlongBranchesInARow)
 {
   const SkeletonGraph graph = Ring();
-  const ElementIndex  stem = BranchAt(graph, { 1, 0, 0 });
-  const ElementIndex  direct = BranchAt(graph, { 4, 0, 0 });
-  const ElementIndex  round = BranchAt(graph, { 4.5, 5, 0 });
-  const ElementIndex  end = BranchAt(graph, { 8, 0, 0 });
+  const ElementIndex  stem = NearestBranch(graph, { 1, 0, 0 });
+  const ElementIndex  direct = NearestBranch(graph, { 4, 0, 0 });
+  const ElementIndex  round = NearestBranch(graph, { 4.5, 5, 0 });
+  const ElementIndex  end = NearestBranch(graph, { 8, 0, 0 });
   const auto          along = [&](std::vector<ElementIndex> branches) { return WayAlong(graph, branches); };
   EXPECT_NEAR(LengthOf(along({ stem, direct, end })), 9, 1e-12);
   EXPECT_EQ(along({ stem, direct, end }).places.front(), (Vector3{ 0, 0, 0 }));
