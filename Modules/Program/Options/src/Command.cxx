@@ -101,7 +101,8 @@ RunCommand(const Command & command, const Invocation & call)
     {
       if (asked != nullptr)
       {
-        throw UsageError(FlagGiven(*asked, call.values) + " does not go with " + FlagGiven(*one, call.values));
+        throw UsageError(FlagGiven(*asked, call.values) + " does not go with " + FlagGiven(*one, call.values) +
+                         "; give either");
       }
       asked = one;
     }

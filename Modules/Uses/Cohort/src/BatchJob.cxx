@@ -253,7 +253,7 @@ BatchOptionsFrom(const ParameterValues & values, std::span<const Command> comman
     const std::string flag(command.asCase->flag);
     if (options.command != nullptr && !IsUsual(*options.command))
     {
-      throw UsageError(std::string(options.command->asCase->flag) + " does not go with " + flag);
+      throw UsageError(std::string(options.command->asCase->flag) + " does not go with " + flag + "; give either");
     }
     if (!IsUsual(command) && !options.skeletons)
     {
