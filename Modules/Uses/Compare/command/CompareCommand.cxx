@@ -1,9 +1,10 @@
 // `voxelcore compare`: its options, and what it runs.
 
+#include "voxelcore/Compare/CompareCommand.h"
+
 #include "voxelcore/Options/FieldReader.h"
 #include "voxelcore/Options/ParameterReader.h"
 #include "voxelcore/Options/Requests.h"
-#include "voxelcore/Compare/CompareCommand.h"
 #include "voxelcore/Options/SharedRows.h"
 
 namespace voxelcore

@@ -1,8 +1,9 @@
 // `voxelcore skeleton --probability`: its options, and what it runs.
 
+#include "voxelcore/Compare/ProbabilityExtension.h"
+
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParseReal.h"
-#include "voxelcore/Compare/ProbabilityExtension.h"
 #include "voxelcore/Options/CommandTable.h"
 #include "voxelcore/Options/FieldReader.h"
 #include "voxelcore/Options/Requests.h"

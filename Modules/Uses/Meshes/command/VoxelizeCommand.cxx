@@ -1,8 +1,9 @@
 // `voxelcore voxelize`: its options, and what it runs.
 
+#include "voxelcore/Meshes/VoxelizeCommand.h"
+
 #include "voxelcore/Options/ParameterReader.h"
 #include "voxelcore/Options/Requests.h"
-#include "voxelcore/Meshes/VoxelizeCommand.h"
 #include "voxelcore/Options/SharedRows.h"
 
 namespace voxelcore

@@ -1,12 +1,13 @@
 // `voxelcore phantom`: its options, and what it runs.
 
-#include "voxelcore/Options/ParameterReader.h"
+#include "voxelcore/Phantom/PhantomCommand.h"
+
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Options/ParameterReader.h"
+#include "voxelcore/Options/SharedRows.h"
 
 #include <array>
 #include <cmath>
-#include "voxelcore/Phantom/PhantomCommand.h"
-#include "voxelcore/Options/SharedRows.h"
 
 namespace voxelcore
 {

@@ -1,14 +1,15 @@
 // `voxelcore roots`: its options, and what it runs.
 
+#include "voxelcore/Roots/RootsCommand.h"
+
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Options/FieldReader.h"
 #include "voxelcore/Options/ParameterReader.h"
+#include "voxelcore/Options/SharedRows.h"
 #include "voxelcore/Options/SharedValues.h"
-#include "voxelcore/Base/Error.h"
 #include "voxelcore/Report/SkeletonTexts.h"
 
 #include <vector>
-#include "voxelcore/Roots/RootsCommand.h"
-#include "voxelcore/Options/SharedRows.h"
 
 namespace voxelcore
 {

@@ -1,9 +1,10 @@
 // `voxelcore sheets`: its options, and what it runs.
 
-#include "voxelcore/Options/ParameterReader.h"
-#include "voxelcore/Options/SharedValues.h"
 #include "voxelcore/Sheets/SheetsCommand.h"
+
+#include "voxelcore/Options/ParameterReader.h"
 #include "voxelcore/Options/SharedRows.h"
+#include "voxelcore/Options/SharedValues.h"
 
 namespace voxelcore
 {

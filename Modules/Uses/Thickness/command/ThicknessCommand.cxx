@@ -1,13 +1,14 @@
 // `voxelcore thickness`: its options, and what it runs.
 
-#include "voxelcore/Options/FieldReader.h"
-#include "voxelcore/Jobs/ReadInput.h"
-#include "voxelcore/Options/ParameterReader.h"
-#include "voxelcore/Options/SharedValues.h"
+#include "voxelcore/Thickness/ThicknessCommand.h"
+
 #include "voxelcore/Certified/Certified.h"
 #include "voxelcore/Jobs/OutputNames.h"
-#include "voxelcore/Thickness/ThicknessCommand.h"
+#include "voxelcore/Jobs/ReadInput.h"
+#include "voxelcore/Options/FieldReader.h"
+#include "voxelcore/Options/ParameterReader.h"
 #include "voxelcore/Options/SharedRows.h"
+#include "voxelcore/Options/SharedValues.h"
 
 namespace voxelcore
 {

@@ -1,13 +1,14 @@
 // `voxelcore straighten`: its options, and what it runs.
 
+#include "voxelcore/Vessels/StraightenCommand.h"
+
+#include "voxelcore/Base/Library.h"
 #include "voxelcore/Options/FieldReader.h"
 #include "voxelcore/Options/ParameterReader.h"
-#include "voxelcore/Base/Library.h"
+#include "voxelcore/Options/SharedRows.h"
 #include "voxelcore/Report/SkeletonTexts.h"
 
 #include <charconv>
-#include "voxelcore/Vessels/StraightenCommand.h"
-#include "voxelcore/Options/SharedRows.h"
 
 namespace voxelcore
 {
