@@ -15,10 +15,9 @@ namespace voxelcore
 inline std::uint64_t
 MixedCorners(const std::array<ConstShapeRow, 4> & rows, std::size_t word)
 {
-  const auto & [a, b, c, d] = rows;
-  const auto          any = [&](std::size_t at) { return a[at] | b[at] | c[at] | d[at]; };
-  const auto          all = [&](std::size_t at) { return a[at] & b[at] & c[at] & d[at]; };
-  const bool          isWithin = word < a.size();
+  const auto          any = [&](std::size_t at) { return rows[0][at] | rows[1][at] | rows[2][at] | rows[3][at]; };
+  const auto          all = [&](std::size_t at) { return rows[0][at] & rows[1][at] & rows[2][at] & rows[3][at]; };
+  const bool          isWithin = word < rows[0].size();
   const std::uint64_t ownAny = isWithin ? any(word) : 0;
   const std::uint64_t ownAll = isWithin ? all(word) : 0;
   const std::uint64_t anyBefore = word > 0 ? any(word - 1) >> 63U : 0;
