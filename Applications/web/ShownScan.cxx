@@ -5,6 +5,7 @@
 #include "voxelcore/Imaging/ScanRows.h"
 #include "voxelcore/Jobs/InfoJob.h"
 #include "voxelcore/Jobs/ReadInput.h"
+#include "voxelcore/Options/Requests.h"
 
 #include <algorithm>
 #include <cmath>
