@@ -1,6 +1,6 @@
 """A scan's surface, its medial surface coloured by radius, and its curve skeleton, in ParaView: a picture and a state.
 
-usage: pvpython show.py VoxelCore.xml SCAN OUT [LABEL]      writes OUT.png and OUT.pvsm; SCAN: .vti .nrrd .mha
+usage: pvbatch show.py VoxelCore.xml SCAN OUT [LABEL]      writes OUT.png and OUT.pvsm; SCAN: .vti .nrrd .mha
 """
 
 import sys
