@@ -662,7 +662,7 @@ private:
     });
     Set(voxels, false);
     part.taken.insert(part.taken.end(), voxels.begin(), voxels.end());
-    return Keep(std::move(part.taken), false) ? "" : "another number of pieces or loops would come of it";
+    return Keep(std::move(part.taken), false) ? "" : "without it the body would fall apart, or its loops would change";
   }
 
   std::string
@@ -721,7 +721,7 @@ private:
         return "";
       }
     }
-    return "its way is not free: another number of pieces or loops would come of it";
+    return "its way touches other parts of the body: a loop or a cavity would come of it";
   }
 
   VoxelShape                  m_Shape;
