@@ -33,14 +33,9 @@ version=$(bash "$here/../release/version.sh")
 name=voxelcore-$version-$system
 epoch=${SOURCE_DATE_EPOCH:-315619200} # of 1980, where the times of a .zip begin
 rm -rf "$build/$name" "$build/$name".*
-mkdir -p "$build/$name/licences"
+mkdir -p "$build/$name"
 cp "$build/program/bin/"voxelcore* "$source_folder/LICENSE" "$here/README.md" "$build/$name/"
-cp "$build/libraries/licences/"*.txt "$build/$name/licences/"
-cp "$build/libraries/sources" "$build/$name/SOURCES" # what is in it, and of which version
-for package in libboost-dev libcli11-dev nlohmann-json3-dev "${runtimes[@]}"; do
-  cp "/usr/share/doc/$package/copyright" "$build/$name/licences/$package.txt"
-  dpkg-query -W -f='${Package} ${Version}\n' "$package" | head -n 1 >>"$build/$name/SOURCES"
-done
+bash "$here/contents.sh" "$build/$name" "$build/libraries" "${runtimes[@]}"
 cd "$build"
 find "$name" -exec touch -d "@$epoch" {} +
 if [ "$system" = windows-x86_64 ]; then

@@ -17,7 +17,6 @@ import re
 import subprocess
 import sys
 import tarfile
-import urllib.parse
 import uuid
 import zipfile
 
@@ -32,6 +31,11 @@ def of_wheel(path):
         return json.loads(archive.read(names[0]))["components"] if names else []
 
 
+def library(name, version):
+    one = {"type": "library", "name": name, "purl": f"pkg:deb/debian/{name}" + (f"@{version}" if version else "")}
+    return dict(one, version=version) if version else one
+
+
 def of_package(path):
     """Of alternatives the first."""
     found = []
@@ -41,9 +45,7 @@ def of_package(path):
             continue
         done = subprocess.run(["dpkg-query", "-W", "-f=${Version}\n", name[0]], capture_output=True, text=True)
         version = done.stdout.splitlines()[0] if done.returncode == 0 and done.stdout.strip() else ""
-        purl = f"pkg:deb/debian/{name[0]}" + (f"@{version}" if version else "")
-        one = {"type": "library", "name": name[0], "purl": purl}
-        found.append(dict(one, version=version) if version else one)
+        found.append(library(name[0], version))
     return found
 
 
@@ -55,12 +57,7 @@ def of_program(path):
     else:
         with tarfile.open(path) as archive:
             texts = [archive.extractfile(one).read() for one in archive if one.name.endswith("/SOURCES")]
-    found = []
-    for line in texts[0].decode().splitlines() if texts else []:
-        name, version = line.split()
-        purl = f"pkg:deb/debian/{name}@{urllib.parse.quote(version, safe='')}"
-        found.append({"type": "library", "name": name, "purl": purl, "version": version})
-    return found
+    return [library(*line.split()) for line in texts[0].decode().splitlines()] if texts else []
 
 
 def libraries_of(path, folder, version):

@@ -13,15 +13,10 @@ bash "$here/../portable/build.sh" wasm "$build"
 # The package: the program, JavaScript around it, and the licences of all that is in it.
 package=$build/package
 rm -rf "$package"
-mkdir -p "$package/licences"
+mkdir -p "$package"
 cp -r "$here/package/." "$package/"
 cp "$here/README.md" "$source_folder/LICENSE" "$package/"
-cp "$build/libraries/licences/"*.txt "$package/licences/"
-cp "$build/libraries/sources" "$package/SOURCES" # what is in it, and of which version
-for name in libboost-dev libcli11-dev nlohmann-json3-dev emscripten; do
-  cp "/usr/share/doc/$name/copyright" "$package/licences/$name.txt"
-  dpkg-query -W -f='${Package} ${Version}\n' "$name" | head -n 1 >>"$package/SOURCES"
-done
+bash "$here/../portable/contents.sh" "$package" "$build/libraries" emscripten
 cp "$build/program/bin/voxelcore.wasm" "$package/"
 { cat "$build/program/bin/voxelcore.js"; echo 'export default createVoxelCore;'; } >"$package/voxelcore.js"
 version=$(sed -n 's/^project(VoxelCore VERSION \([0-9.]*\).*/\1/p' "$source_folder/CMakeLists.txt")

@@ -111,7 +111,8 @@ def arrays(path):
 
 def main():
     version = re.search(r"project\(VoxelCore VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
-    meta, cited = json.loads((SOURCE / "codemeta.json").read_text()), (SOURCE / "CITATION.cff").read_text()
+    meta = json.loads((SOURCE / "Applications/release/codemeta.json").read_text())
+    cited = (SOURCE / "CITATION.cff").read_text()
     assert meta["@context"] == "https://doi.org/10.5063/schema/codemeta-2.0" and meta["@type"] == "SoftwareSourceCode"
     assert meta["version"] == version and f"version: {version}\n" in cited
     assert meta["license"] == "https://spdx.org/licenses/Apache-2.0" and "license: Apache-2.0\n" in cited

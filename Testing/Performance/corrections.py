@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 
+import nibabel
 import numpy
 from scipy import ndimage
 
@@ -49,22 +50,15 @@ def make(name, folder):
 
 
 def read(path):
-    """A mask in the order z, y, x and its spacing; NIfTI-1 or NRRD, as the two bodies are."""
+    """A mask in the order z, y, x and its spacing; NIfTI or NRRD, as the two bodies are."""
     if path.endswith(".nii.gz"):
-        with gzip.open(path) as file:
-            data = file.read()
-        size = numpy.frombuffer(data, "<i2", 8, 40)[1:4]
-        kind = {2: "u1", 4: "<i2", 8: "<i4", 16: "<f4", 64: "<f8", 256: "i1", 512: "<u2"}[
-            int(numpy.frombuffer(data, "<i2", 1, 70)[0])]
-        spacing = numpy.frombuffer(data, "<f4", 8, 76)[1:4]
-        start = int(numpy.frombuffer(data, "<f4", 1, 108)[0])
-        values = numpy.frombuffer(data, kind, int(numpy.prod(size.astype(int))), start)
-    else:
-        with open(path, "rb") as file:
-            head, data = file.read().split(b"\n\n", 1)
-        size = [int(word) for word in re.search(rb"sizes: (.*)", head).group(1).split()]
-        spacing, values = (1, 1, 1), numpy.frombuffer(gzip.decompress(data), "u1")
-    return (values.reshape([int(n) for n in reversed(size)]) > 0).astype(numpy.uint8), [float(s) for s in spacing]
+        image = nibabel.load(path)
+        spacing = [float(side) for side in image.header.get_zooms()[:3]]
+        return (numpy.asarray(image.dataobj).T > 0).astype(numpy.uint8), spacing
+    with open(path, "rb") as file:
+        head, data = file.read().split(b"\n\n", 1)
+    size = [int(word) for word in re.search(rb"sizes: (.*)", head).group(1).split()]
+    return (numpy.frombuffer(gzip.decompress(data), "u1").reshape(size[::-1]) > 0).astype(numpy.uint8), [1.0, 1.0, 1.0]
 
 
 def draw(folder, name, count, random):

@@ -3,7 +3,7 @@
 #include <array>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <utility>
+#include <string_view>
 
 namespace voxelcore
 {
@@ -13,7 +13,8 @@ OptionsJson(std::span<const Command> commands)
 {
   static constexpr std::array kKinds = { "input", "inputs", "output", "text", "integer", "real", "choice", "flag" };
   nlohmann::ordered_json      table{ { "commands", nlohmann::json::array() }, { "options", nlohmann::json::array() } };
-  std::map<std::pair<const char *, const char *>, std::size_t> there; // a row that commands share, by its texts
+  // A row that commands share, by its name and what they may differ in.
+  std::map<std::array<std::string_view, 4>, std::size_t> there;
   for (const Command & command : commands)
   {
     table["commands"].push_back(
@@ -21,7 +22,8 @@ OptionsJson(std::span<const Command> commands)
     for (const Parameter & parameter : command.rows)
     {
       const auto [at, isNew] =
-        there.emplace(std::pair(parameter.description.data(), parameter.defaultValue.data()), table["options"].size());
+        there.try_emplace({ parameter.name, parameter.placeholder, parameter.defaultValue, parameter.description },
+                          table["options"].size());
       if (!isNew)
       {
         table["options"][at->second]["commands"].push_back(command.name);

@@ -201,6 +201,7 @@ BatchOptionsFrom(const ParameterValues & values, std::span<const Command> comman
 {
   BatchOptions options;
   options.commands = commands;
+  options.rows = OptionsOfCases(commands);
   const auto inputs = values.find("inputs");
   for (std::size_t at = 0; inputs != values.end() && at < inputs->second.size();)
   {
@@ -217,7 +218,7 @@ BatchOptionsFrom(const ParameterValues & values, std::span<const Command> comman
   {
     options.output = options.output.parent_path();
   }
-  for (const Parameter & parameter : OptionsOfCases(commands))
+  for (const Parameter & parameter : options.rows)
   {
     const auto value = values.find(parameter.name);
     if (DescribesACase(parameter) && value != values.end())
@@ -289,9 +290,9 @@ BatchResult
 RunBatchJob(const BatchOptions & options, const JobContext & context)
 {
   std::vector<fs::path>   passedOver;
-  std::vector<CohortCase> cases =
-    options.inputs.empty() ? std::vector<CohortCase>()
-                           : FindCases(options.inputs, OptionsOfCases(options.commands), options.output, &passedOver);
+  std::vector<CohortCase> cases = options.inputs.empty()
+                                    ? std::vector<CohortCase>()
+                                    : FindCases(options.inputs, options.rows, options.output, &passedOver);
   if (options.only)
   {
     if (*options.only < 1 || *options.only > cases.size())
@@ -340,7 +341,7 @@ CaseList(const BatchOptions & options)
 {
   std::string text;
   std::size_t number = 0;
-  for (const CohortCase & one : FindCases(options.inputs, OptionsOfCases(options.commands), options.output))
+  for (const CohortCase & one : FindCases(options.inputs, options.rows, options.output))
   {
     text += std::to_string(++number) + "\t" + one.folder + "\t" + InOneLine(one.id) + "\t" + InOneLine(one.scan) + "\n";
   }

@@ -108,7 +108,7 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
   {
     given.insert(*threads);
   }
-  for (const Parameter & parameter : OptionsOfCases(options.commands))
+  for (const Parameter & parameter : options.rows)
   {
     const auto value = values.find(parameter.name);
     if (!DescribesACase(parameter) || value == values.end())

@@ -19,6 +19,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -238,14 +239,21 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
   CertifiedRequest      request = RequestOf(core, MakeSurfaceSource(core.refine, core.scan, core.reading, scan.volume));
   RequireLengthsOf(making.input, geometry.unit, request);
   request.scan = BorderOf(scan.volume);
-  request.skeleton->branches.cutLoops = false; // edits name places on them, too
-  const LabelOutcome               found = ProcessLabel(label, geometry, request, plan.Next());
-  const VoxelShape                 before = label.label.shape;
-  const std::vector<AnnotationRow> rows = RowsOf(found.skeleton->graph, said);
-  std::vector<TreeEdit>            edits;
+  // Where nothing is edited or cut, the tree that is written is the one whose places are named.
+  const bool                  isOne = said.empty() && !request.skeleton->branches.cutLoops;
+  std::optional<LabelOutcome> found;
+  std::vector<AnnotationRow>  rows;
+  if (const auto progress = plan.Next(); !isOne)
+  {
+    request.skeleton->branches.cutLoops = false; // edits name places on them, too
+    found = ProcessLabel(label, geometry, request, progress);
+    rows = RowsOf(found->skeleton->graph, said);
+  }
+  const VoxelShape      before = isOne ? VoxelShape() : label.label.shape;
+  std::vector<TreeEdit> edits;
   std::transform(said.begin(), said.end(), std::back_inserter(edits), [](const Said & one) { return one.edit; });
   (void)plan.Next("editing");
-  EditedTree edited = EditTree(before, geometry, *found.skeleton, edits);
+  EditedTree edited = isOne ? EditedTree() : EditTree(before, geometry, *found->skeleton, edits);
   if (edited.root)
   {
     core.skeleton->branches.root = { RootChoice::Kind::Point, *edited.root };
@@ -275,8 +283,13 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
   JobContext part = context;
   part.progress = plan.Next();
   scan.done = [&](LabelOutcome & outcome) {
+    if (isOne)
+    {
+      rows = RowsOf(outcome.skeleton->graph, said);
+      return;
+    }
     RequireEdits(before,
-                 found.record.shape,
+                 found->record.shape,
                  edits,
                  edited,
                  outcome.record.skeleton->topology,

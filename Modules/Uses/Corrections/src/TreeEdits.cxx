@@ -6,6 +6,7 @@
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Lattice/Vectors.h"
+#include "voxelcore/Shape/ShapeBits.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 #include "voxelcore/Shape/ShapeTopology.h"
 #include "voxelcore/Skeleton/LoopClosers.h"
@@ -225,8 +226,7 @@ private:
     {
       m_Widest = std::max(m_Widest, Radius(static_cast<ElementIndex>(point)));
     }
-    const VoxelBox own = m_Shape.Box();
-    VoxelBox       box = own;
+    VoxelBox box = m_Shape.Box();
     for (const TreeEdit & edit : edits)
     {
       for (const Vector3 & place : edit.further)
@@ -240,12 +240,7 @@ private:
       }
     }
     VoxelShape wide(box);
-    ForVoxels(own, [&](const Voxel & voxel) {
-      if (Contains(voxel))
-      {
-        wide.Insert(voxel[0], voxel[1], voxel[2]);
-      }
-    });
+    PutInto(m_Shape, wide);
     wide.Compact();
     m_Shape = std::move(wide);
   }

@@ -23,6 +23,7 @@ struct BatchOptions
   ParameterValues                    values;   ///< options of the command for all cases; a case's own come first
   std::span<const Command>           commands; ///< all there are
   const Command *                    command = nullptr; ///< what each case is; it is `asCase`
+  std::vector<Parameter>             rows;              ///< OptionsOfCases(commands)
   bool                               skeletons = true;
   bool                               pages = false;  ///< a page per case that shows it in 3-D (`core --html`)
   bool                               force = false;  ///< what is done is done again
