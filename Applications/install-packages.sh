@@ -2,10 +2,11 @@
 # The Debian packages VoxelCore needs, in one place. Installs those that are missing; does nothing when none is.
 # usage: install-packages.sh GROUP...     groups: build, python (the module), wheel (the same for pip), demo
 # (a real scan), picture (to render where there is no screen), guide (to build the guide's site), test, package (to make
-# and test packages and the reference), sanitizer (what the tests under ThreadSanitizer need besides), analysis (what
-# reads the sources, and valgrind), browser (tests of pages), cluster (workflows, and the tests on a cluster), container
-# (to test the image), reproduction (the paper's figures, Testing/Reproduction), bench (Testing/Performance), web
-# (WebAssembly), portable (the program for other systems, and to test it)
+# and test packages and the reference), debian (to build by Applications/debian), sanitizer (what the tests under
+# ThreadSanitizer need besides), analysis (what reads the sources, and valgrind), browser (tests of pages), cluster
+# (workflows, and the tests on a cluster), container (to test the image), reproduction
+# (the paper's figures, Testing/Reproduction), bench (Testing/Performance), web (WebAssembly), portable (the program for
+# other systems, and to test it)
 set -euo pipefail
 
 packages_of() {
@@ -25,6 +26,7 @@ packages_of() {
                python3-tifffile python3-pil python3-zarr python3-matplotlib python3-pyqt5 python3-cheetah xauth \
                mricron-data ;;
     package) echo dpkg-dev file debootstrap doxygen graphviz groff mkdocs mricron-data ;;
+    debian) echo debhelper dh-python dpkg-dev lintian libinsighttoolkit5-dev ;;
     sanitizer) echo clang libomp-dev ;;
     analysis) echo clang clang-tidy cppcheck valgrind ;;
     browser) echo chromium chromium-headless-shell python3 ;;
@@ -39,8 +41,8 @@ packages_of() {
     bench) echo libbenchmark-dev libcgal-dev libtbb-dev python3-matplotlib python3-skimage python3-scipy \
                 python3-nibabel ;;
     *) echo "install-packages.sh: unknown group '$1'; there are build, python, wheel, demo, picture, guide, test," \
-            "package, sanitizer, analysis, browser, cluster, container, reproduction, bench, web, portable and" \
-            "paraview" >&2
+            "package, debian, sanitizer, analysis, browser, cluster, container, reproduction, bench, web, portable" \
+            "and paraview" >&2
        return 2 ;;
   esac
 }

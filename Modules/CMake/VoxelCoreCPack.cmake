@@ -1,26 +1,37 @@
-# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. With
-# TetGen
-# in it a package falls under the AGPL as a whole, so it has a name of its own.
+# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. What they
+# are called, say and need stands in Applications/debian, by which Debian builds them itself. With TetGen in it a package
+# falls under the AGPL as a whole, so it has a name of its own.
+set(variant "")
+set(other -tetgen)
+set(licence "")
+set(engine "Built without TetGen: under the Apache licence.")
 if(VOXELCORE_TETGEN)
   set(variant -tetgen)
   set(other "")
-  set(licence "AGPL-3.0-or-later as a whole, as it is linked with TetGen; VoxelCore's own files are Apache-2.0")
-  set(tetgen "
- Built with TetGen as a second engine: under the AGPL-3 as a whole.
+  set(licence " This package is under the AGPL-3 as a whole, as it is linked with TetGen
+ (https://www.gnu.org/licenses/agpl-3.0.txt; source: Debian's package tetgen).
+ VoxelCore's own files are Apache-2.0.\n")
+  set(engine "Built with TetGen as a second engine: under the AGPL-3 as a whole.
  The package without -tetgen is Apache-2.0.")
-else()
-  set(variant "")
-  set(other -tetgen)
-  set(licence "Apache-2.0")
-  set(tetgen "
- Built without TetGen: under the Apache licence.")
 endif()
 set(package_program voxelcore)
 set(package_development libvoxelcore-dev)
 set(package_python python3-voxelcore)
-set(summary_program "certified medial surfaces of segmented CT and MRI volumes")
-set(summary_development "certified medial surfaces: libraries and headers")
-set(summary_python "certified medial surfaces: Python module")
+
+set(debian "${PROJECT_SOURCE_DIR}/Applications/debian")
+foreach(file control copyright changelog)
+  file(READ "${debian}/${file}" debian_${file})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${debian}/${file}")
+endforeach()
+# debian_field(PACKAGE FIELD VARIABLE): the field of a package's paragraph in control, without what debhelper fills in.
+function(debian_field package field variable)
+  string(REGEX MATCH "\nPackage: ${package}\n([^\n]+\n)+" paragraph "${debian_control}")
+  if(NOT "${paragraph}" MATCHES "\n${field}: *\n?([^\n]*(\n [^\n]*)*)")
+    message(FATAL_ERROR "${debian}/control: package ${package} has no ${field}")
+  endif()
+  string(REGEX REPLACE " *[$]{[^}]*},?\n?" "" found "${CMAKE_MATCH_1}")
+  set(${variable} "${found}" PARENT_SCOPE)
+endfunction()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME voxelcore${variant})
@@ -45,26 +56,27 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
   "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
 # The program's package holds what reads DICOM and others through ITK.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-vtk9, voxelcore")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtiff-dev, libpng-dev, zlib1g-dev, libbz2-dev, libblosc-dev")
-string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libzstd-dev, libexpat1-dev, libjpeg-dev, libssl-dev")
-string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libvtk9-dev")
+debian_field(${package_development} Depends needs)
+string(REGEX REPLACE "[ \n]+" " " needs "${needs}")
+string(REGEX REPLACE "^ |, *$" "" needs "${needs}")
+if(NOT TARGET VoxelCoreDisplay)
+  string(REGEX REPLACE "(libmeshoptimizer|libx11|libzip)-dev, " "" needs "${needs}")
+endif()
 if(VOXELCORE_TETGEN)
-  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libtet1.5-dev")
+  string(APPEND needs ", libtet1.5-dev")
 endif()
-if(TARGET VoxelCoreDisplay)
-  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libx11-dev, libzip-dev, libmeshoptimizer-dev")
-endif()
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${needs}")
 if(TARGET VoxelCoreITK)
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libinsighttoolkit5-dev)
 endif()
 
-string(TIMESTAMP today "%a, %d %b %Y 00:00:00 +0000" UTC) # of SOURCE_DATE_EPOCH, where it is set
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} upper)
   set(name ${package_${component}}${variant})
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
-  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary_${component}}${tetgen}")
-  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${summary_${component}}${tetgen}")
+  debian_field(${package_${component}} Description description)
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${description}\n .\n ${engine}")
+  set(CPACK_DEBIAN_${upper}_DESCRIPTION "${description}\n .\n ${engine}")
   # One variant at a time.
   if(VOXELCORE_TETGEN)
     set(CPACK_DEBIAN_${upper}_PACKAGE_PROVIDES ${package_${component}})
@@ -72,9 +84,10 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   else()
     set(CPACK_DEBIAN_${upper}_PACKAGE_CONFLICTS ${package_${component}}-tetgen)
   endif()
-  set(VOXELCORE_LICENCE "${licence}")
-  configure_file("${CMAKE_CURRENT_LIST_DIR}/copyright.in" "${PROJECT_BINARY_DIR}/package/${name}/copyright" @ONLY)
-  configure_file("${CMAKE_CURRENT_LIST_DIR}/changelog.in" "${PROJECT_BINARY_DIR}/package/${name}/changelog" @ONLY)
+  string(REPLACE "Comment:\n" "Comment:\n${licence}" text "${debian_copyright}")
+  file(WRITE "${PROJECT_BINARY_DIR}/package/${name}/copyright" "${text}")
+  string(REGEX REPLACE "^voxelcore \\([^)]*\\)" "${name} (${PROJECT_VERSION})" text "${debian_changelog}")
+  file(WRITE "${PROJECT_BINARY_DIR}/package/${name}/changelog" "${text}")
   install(FILES "${PROJECT_BINARY_DIR}/package/${name}/copyright" "${PROJECT_BINARY_DIR}/package/${name}/changelog"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" COMPONENT ${component})
 endforeach()

@@ -44,8 +44,9 @@ for name in voxelcore libvoxelcore-dev python3-voxelcore; do
   [ "$(grep -c 'libtet1' <<<"$depends")" = "$([ -n "$suffix" ] && echo 1 || echo 0)" ] ||
     fail "$name and TetGen: $depends"
   dpkg -x "$file" "$scratch/root"
-  grep -q "^This package: $([ -n "$suffix" ] && echo AGPL-3 || echo Apache-2.0)" \
-    "$scratch/root/usr/share/doc/$name$suffix/copyright" || fail "$name does not say its licence"
+  said=$scratch/root/usr/share/doc/$name$suffix/copyright
+  [ "$(grep -c 'under the AGPL-3 as a whole' "$said")" = "$([ -n "$suffix" ] && echo 1 || echo 0)" ] &&
+    grep -q '^License: Apache-2.0' "$said" || fail "$name does not say its licence"
 done
 
 root=$scratch/root/usr

@@ -2,6 +2,7 @@
 
 import os
 import re
+import sys
 import textwrap
 import time
 
@@ -193,6 +194,49 @@ def test_picture_in_the_guide_is_that_of_todays_panel(scene, tmp_path):
     assert (values[0] < 100).mean() > 0.01, "there is text"
 
 
+def opened():
+    made = VoxelCore.VoxelCoreWidget(panel.Parent())
+    made.setup()
+    return made
+
+
+def test_first_run_says_who_computes_and_that_nothing_is_installed_until_it_is_understood(scene):
+    version = run("--version").stdout.split()[1]
+    slicer.app.settings().setValue("VoxelCore/Program", PROGRAM)
+    first = opened()
+    said = first.ui.firstRunLabel.text
+    assert shown(first, "firstRunCollapsibleButton") and f"The program {PROGRAM}, version {version}, computes" in said
+    assert "Nothing is installed" in said and "no data leave" in said and "Undo" in said
+    assert version in first.ui.applyButton.toolTip
+    # What the user chooses is said at once, also where it will not do.
+    for wrong in ("/nowhere/voxelcore", "/bin/true"):
+        first.ui.programPathLineEdit.currentPath = wrong
+        assert wrong in first.ui.firstRunLabel.text and "installs nothing" in first.ui.firstRunLabel.text
+        assert wrong in first.ui.statusLabel.text and "\n" not in first.ui.statusLabel.text
+    first.ui.programPathLineEdit.currentPath = PROGRAM
+    assert said == first.ui.firstRunLabel.text and first.ui.statusLabel.text == ""
+    click(first.ui.firstRunButton)
+    assert not shown(first, "firstRunCollapsibleButton") and slicer.util.errors == []
+    first.cleanup()
+    again = opened()
+    assert not shown(again, "firstRunCollapsibleButton")
+    again.cleanup()
+
+
+def test_first_run_names_the_package_where_it_computes(scene):
+    first = opened()  # no program on the path of these tests
+    import voxelcore
+
+    assert f"The package voxelcore of {sys.executable}, version {voxelcore.__version__}" in first.ui.firstRunLabel.text
+    first.ui.segmentationSelector.setCurrentNode(segmentationOf(body()))
+    click(first.ui.applyButton)
+    assert not shown(first, "firstRunCollapsibleButton")
+    first.cleanup()
+    again = opened()
+    assert not shown(again, "firstRunCollapsibleButton")
+    again.cleanup()
+
+
 def test_panel_without_program_and_package_says_what_to_do_before_anything_is_pressed(scene, monkeypatch):
     line = "the program voxelcore is not here; choose it"
 
@@ -200,9 +244,8 @@ def test_panel_without_program_and_package_says_what_to_do_before_anything_is_pr
         raise VoxelCore.VoxelCoreError(line)
 
     monkeypatch.setattr(VoxelCore.Backend, "find", find)
-    bare = VoxelCore.VoxelCoreWidget(panel.Parent())
-    bare.setup()
-    assert bare.ui.statusLabel.text == line and slicer.util.errors == []
+    bare = opened()
+    assert bare.ui.statusLabel.text == line and line in bare.ui.firstRunLabel.text and slicer.util.errors == []
     bare.cleanup()
 
 

@@ -96,17 +96,37 @@ class VoxelCoreWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         self.addObserver(slicer.mrmlScene, slicer.mrmlScene.StartCloseEvent, self.onSceneStartClose)
         self.addObserver(slicer.mrmlScene, slicer.mrmlScene.EndCloseEvent, self.onSceneEndClose)
         self.ui.programPathLineEdit.currentPath = slicer.app.settings().value("VoxelCore/Program", "") or ""
+        self.ui.programPathLineEdit.connect("currentPathChanged(QString)", self.sayWhoComputes)
+        self.ui.firstRunButton.connect("clicked(bool)", self.onFirstRunUnderstood)
+        understood = slicer.app.settings().value("VoxelCore/FirstRunUnderstood", "") == "true"
+        self.ui.firstRunCollapsibleButton.visible = not understood
         self.showRunning(False)
         self.readParameterNode()
         self.onSurfaceChanged()
         self.sayWhoComputes()
 
-    def sayWhoComputes(self):
-        """Before anything is chosen: a panel without its program says so, and what to do."""
+    def sayWhoComputes(self, *unused):
+        """Who will compute, before anything is pressed: in the box that is there until the first run, and the tool tip
+        of Apply. Without a program it says what to do."""
+        self.ui.statusLabel.text = ""
         try:
-            Backend.find(self.ui.programPathLineEdit.currentPath)
+            backend = Backend.find(self.ui.programPathLineEdit.currentPath)
+            who = f"The {backend.kind} {backend.path()}, version {backend.version()}, computes"
         except VoxelCoreError as error:
             self.ui.statusLabel.text = str(error)
+            self.ui.firstRunLabel.text = f"Nothing can be computed yet: {error}. The module itself installs nothing."
+            self.ui.applyButton.toolTip = str(error)
+            return
+        self.ui.firstRunLabel.text = (
+            f"{who}, in a process of its own. Nothing is installed or downloaded, and no data leave this computer. The "
+            "segments go into Slicer's temporary folder, and are removed from there. Results come into a folder of "
+            "their own in the Data module; the segmentation stays as it is, and one Undo takes the results away."
+        )
+        self.ui.applyButton.toolTip = f"{who}."
+
+    def onFirstRunUnderstood(self, *unused):
+        slicer.app.settings().setValue("VoxelCore/FirstRunUnderstood", "true")
+        self.ui.firstRunCollapsibleButton.visible = False
 
     def cleanup(self):
         self.onCancel()
@@ -192,6 +212,7 @@ class VoxelCoreWidget(ScriptedLoadableModuleWidget, VTKObservationMixin):
         except VoxelCoreError as error:
             self.showError(error)
             return
+        self.onFirstRunUnderstood()
         self.showRunning(True)
         self.timer.start()
 

@@ -2,6 +2,8 @@
 
 #include "itkMedialComplexToMeshFilter.h"
 
+#include "voxelcore/Certified/Certified.h"
+
 #include <set>
 
 using namespace voxelcore;
@@ -80,4 +82,47 @@ TEST(ItkMesh, HoldsEveryCellOfEveryCoreInItsPlaceWithRadiiAndLabels)
   EXPECT_GT(lines, 0U);
   EXPECT_EQ(mesh.GetNumberOfPoints(), first);
   EXPECT_EQ(mesh.GetNumberOfCells(), cell);
+}
+
+TEST(ItkMesh, BranchesAsPathsLieInTheImageWhereTheSkeletonLies)
+{
+  Pipeline pipeline;
+  auto     geometry = pipeline.shapes->GetGeometry();
+  geometry.direction = { 0, 0.6, 0.8, 0, 0.8, -0.6, -1, 0, 0 };
+  pipeline.shapes->SetGeometry(geometry);
+  Placement placement{ pipeline.shapes->GetStartIndex(), geometry.spacing, {}, geometry.direction };
+  // ITK's origin is where index 0 would be.
+  ImageGeometry before = geometry;
+  before.origin = LatticeToPhysical(geometry, { 0.5 - 4, 0.5 - 5, 0.5 - 6 });
+  placement.origin = before.origin;
+  const auto image = MakeImage<unsigned char>(
+    { { 24, 24, 24 } },
+    [](int, int, int) { return 0; },
+    placement);
+
+  std::size_t branches = 0;
+  for (const LabelShape & label : pipeline.shapes->GetLabels())
+  {
+    CertifiedRequest request;
+    request.lambdas = { Lambda() };
+    request.skeleton.emplace();
+    const auto   result = ComputeCertified(label.shape, geometry, request);
+    const auto & graph = result.skeleton->skeleton.graph;
+    const auto   paths = itk::PathsOfBranches(graph, *pipeline.shapes);
+    ASSERT_EQ(paths.size(), graph.BranchCount());
+    for (std::size_t branch = 0; branch < paths.size(); ++branch)
+    {
+      const auto points = graph.Branch(branch);
+      const auto vertices = paths[branch]->GetVertexList();
+      ASSERT_EQ(vertices->Size(), points.size());
+      for (unsigned int n = 0; n < points.size(); ++n)
+      {
+        const auto place = image->TransformContinuousIndexToPhysicalPoint<double>(vertices->ElementAt(n));
+        EXPECT_LT(place.EuclideanDistanceTo(itk::Point<double, 3>(graph.positions[points[n]].data())), 1e-9);
+        EXPECT_TRUE(image->GetLargestPossibleRegion().IsInside(vertices->ElementAt(n)));
+      }
+    }
+    branches += paths.size();
+  }
+  EXPECT_GT(branches, 5U);
 }

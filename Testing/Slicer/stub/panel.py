@@ -143,7 +143,18 @@ class _Plain(QtWidgets.QWidget):
 
 
 ctkCollapsibleButton = properties(_Plain, text="", collapsed=False)
-ctkPathLineEdit = properties(_Plain, currentPath="")
+
+
+class _PathLineEdit(QtWidgets.QWidget):
+    currentPathChanged = pyqtSignal(str)
+    signals = {"currentPathChanged(QString)": "currentPathChanged"}
+    invokable = ()
+
+    def changed(self, name):
+        self.currentPathChanged.emit(self.property("currentPath"))
+
+
+ctkPathLineEdit = properties(_PathLineEdit, currentPath="")
 
 
 class _Slider(QtWidgets.QWidget):

@@ -5,7 +5,9 @@ import dataclasses
 import importlib
 import importlib.util
 import os
+import re
 import shutil
+import subprocess
 import sys
 
 from . import VoxelCoreError
@@ -26,6 +28,24 @@ class Backend:
     kind: str  # "program" or "package"
     words: list
     environment: dict = None
+
+    def path(self):
+        """What a user knows it by: the program, or the Python that has the package."""
+        return self.words[0] if self.kind == "program" else f"voxelcore of {self.words[0]}"
+
+    def version(self):
+        """As it says itself. Raises VoxelCoreError where it says none: no VoxelCore, or none that runs here."""
+        said = "import voxelcore; print('voxelcore', voxelcore.__version__)"
+        words = [self.words[0], "--version"] if self.kind == "program" else [self.words[0], "-c", said]
+        try:
+            done = subprocess.run(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                  stderr=subprocess.DEVNULL, timeout=20)  # fmt: skip
+            found = re.match(rb"voxelcore (\d+\.\d+\.\d+)\s", done.stdout)
+        except (OSError, subprocess.TimeoutExpired):
+            found = None
+        if not found:
+            raise VoxelCoreError(f"{self.words[0]}: it does not say which VoxelCore it is; choose another under Advanced")
+        return found[1].decode()
 
 
 def _python():

@@ -6,8 +6,13 @@
 #include "itkMedialComplexObject.h"
 #include "itkMesh.h"
 #include "itkMeshSource.h"
+#include "itkPolyLineParametricPath.h"
 #include "itkPolygonCell.h"
 #include "itkVertexCell.h"
+
+#include "voxelcore/Skeleton/SkeletonGraph.h"
+
+#include <vector>
 
 namespace itk
 {
@@ -144,6 +149,36 @@ private:
     mesh.SetCellData(identifier, label);
   }
 };
+
+/** A branch of a curve skeleton, for ITK's iterators and filters of paths. */
+using MedialPath = PolyLineParametricPath<3>;
+
+/** The branches of a curve skeleton, such as CertifiedSkeleton::skeleton.graph of a label of `image`, in their order.
+ *
+ * Vertices are continuous indices of the image that the labels were read from, as paths of ITK have them; its
+ * TransformContinuousIndexToPhysicalPoint leads back to LPS mm. Vertex n of path b is point graph.Branch(b)[n], whose
+ * radius is graph.radius. A closed branch ends at its first vertex. Points without a branch have no path. */
+inline std::vector<MedialPath::Pointer>
+PathsOfBranches(const voxelcore::SkeletonGraph & graph, const VoxelLatticeObject & image)
+{
+  std::vector<MedialPath::Pointer> paths;
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    auto path = MedialPath::New();
+    for (const auto point : graph.Branch(branch))
+    {
+      const auto             lattice = voxelcore::PhysicalToLattice(image.GetGeometry(), graph.positions[point]);
+      MedialPath::VertexType vertex;
+      for (unsigned int axis = 0; axis < 3; ++axis)
+      {
+        vertex[axis] = static_cast<double>(image.GetStartIndex()[axis]) + lattice[axis] - 0.5;
+      }
+      path->AddVertex(vertex);
+    }
+    paths.push_back(path);
+  }
+  return paths;
+}
 
 } // namespace itk
 

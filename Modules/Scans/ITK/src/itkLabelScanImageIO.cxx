@@ -5,12 +5,12 @@
 #include "itkObjectFactoryBase.h"
 #include "itkVersion.h"
 
-#include "voxelcore/Base/TextFields.h"
-
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <locale>
 #include <mutex>
+#include <sstream>
 
 namespace itk
 {
@@ -162,15 +162,15 @@ LabelScanImageIO::DescribeSegments()
   std::size_t        number = 0;
   for (const voxelcore::Segment & segment : m_Rows->Segments())
   {
-    const std::string key = voxelcore::Text("Segment", number++, "_");
+    const std::string key = "Segment" + std::to_string(number++) + "_";
     EncapsulateMetaData<std::string>(dictionary, key + "Name", segment.name);
-    EncapsulateMetaData<std::string>(dictionary, key + "LabelValue", voxelcore::Text(segment.value));
+    EncapsulateMetaData<std::string>(dictionary, key + "LabelValue", std::to_string(segment.value));
     if (segment.color)
     {
-      const voxelcore::Color & color = *segment.color;
-      EncapsulateMetaData<std::string>(dictionary,
-                                       key + "Color",
-                                       voxelcore::Text(color[0], " ", color[1], " ", color[2]));
+      std::ostringstream color;
+      color.imbue(std::locale::classic());
+      color << (*segment.color)[0] << ' ' << (*segment.color)[1] << ' ' << (*segment.color)[2];
+      EncapsulateMetaData<std::string>(dictionary, key + "Color", color.str());
     }
   }
   this->SetMetaDataDictionary(dictionary);
