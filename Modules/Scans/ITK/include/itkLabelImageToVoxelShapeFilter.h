@@ -28,6 +28,7 @@ namespace itk
  * Unlike ImageSink's, Update does nothing when nothing changed. After a failure or an abort, its own or of a filter
  * upstream, it can be updated again without ResetPipeline.
  * \sa VoxelCoreFilter
+ * \ingroup VoxelCore
  */
 template <typename TInputImage>
 class LabelImageToVoxelShapeFilter : public ImageSink<TInputImage>

@@ -38,6 +38,7 @@ namespace itk
  * One call of RegisterInFront() makes ImageFileReader take this class for its formats in this process. It does not
  * write.
  * \sa LabelScanReader
+ * \ingroup VoxelCore
  */
 class LabelScanImageIO : public ImageIOBase
 {

@@ -18,6 +18,7 @@ namespace itk
  *
  * It streams: only the requested region is read. A file that changed is read again after Modified().
  * \sa LabelScanImageIO, LabelImageToVoxelShapeFilter
+ * \ingroup VoxelCore
  */
 template <typename TOutputImage>
 class LabelScanReader : public ImageSource<TOutputImage>

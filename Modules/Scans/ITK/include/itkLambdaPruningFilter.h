@@ -21,6 +21,7 @@ namespace itk
  * Progress and abort are forwarded; an ExceptionObject says what was wrong in one line: also when the topology of a
  * core is not, or no longer, its shape's.
  * \sa VoxelCoreFilter
+ * \ingroup VoxelCore
  */
 class LambdaPruningFilter : public MedialComplexSource
 {

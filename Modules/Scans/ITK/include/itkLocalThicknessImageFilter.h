@@ -26,6 +26,7 @@ namespace itk
  * As many threads work as the multi-threader may have, and not more than the number of work units. Progress and abort
  * are forwarded. An ExceptionObject says what was wrong in one line.
  * \sa LabelImageToVoxelShapeFilter, VoxelCoreFilter
+ * \ingroup VoxelCore
  */
 class LocalThicknessImageFilter : public ImageSource<Image<float, 3>>
 {

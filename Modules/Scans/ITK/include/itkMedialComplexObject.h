@@ -19,6 +19,7 @@ namespace itk
  * As in files, vertices are in LPS mm, polygons are oriented for LPS, and radii and measures are in mm. Cores are never
  * changed in place, so grafting, and pruning at 0, share them.
  * \sa VoxelCoreFilter, LambdaPruningFilter
+ * \ingroup VoxelCore
  */
 class MedialComplexObject : public VoxelLatticeObject
 {

@@ -11,6 +11,7 @@ namespace itk
  * \brief Base of filters whose output is a MedialComplexObject.
  *
  * After a failure or an abort, its own or of a filter upstream, it can be updated again without ResetPipeline.
+ * \ingroup VoxelCore
  */
 class MedialComplexSource : public ProcessObject
 {

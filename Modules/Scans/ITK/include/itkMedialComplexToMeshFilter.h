@@ -26,6 +26,7 @@ using MedialMesh = Mesh<double, 3, DefaultStaticMeshTraits<double, 3, 3, double>
  * Points are in LPS mm, their data are radii. Cells are isolated vertices, edges that bound no polygon, and polygons,
  * label after label; their data are labels.
  * \sa VoxelCoreFilter, LambdaPruningFilter
+ * \ingroup VoxelCore
  */
 template <typename TOutputMesh = MedialMesh>
 class MedialComplexToMeshFilter : public MeshSource<TOutputMesh>

@@ -23,6 +23,7 @@ namespace itk
  * are forwarded. An ExceptionObject says what was wrong in one line: also when the topology of a core is not its
  * shape's, which no known input causes.
  * \sa LabelImageToVoxelShapeFilter, LambdaPruningFilter
+ * \ingroup VoxelCore
  */
 class VoxelCoreFilter : public MedialComplexSource
 {

@@ -20,6 +20,7 @@ namespace itk
  *
  * Geometry and start index are the information of the object, known before the data are: they stay when the data are
  * released, and setting them to what they are does not modify the object.
+ * \ingroup VoxelCore
  */
 class VoxelLatticeObject : public DataObject
 {

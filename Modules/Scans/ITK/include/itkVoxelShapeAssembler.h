@@ -18,6 +18,7 @@ namespace itk
  *
  * What VoxelCore throws arrives as ExceptionObject with the same line as description. Voxels in it are counted from the
  * first of the image's largest region.
+ * \ingroup VoxelCore
  */
 class VoxelShapeAssembler
 {

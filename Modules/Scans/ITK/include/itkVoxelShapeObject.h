@@ -17,6 +17,7 @@ namespace itk
  *
  * Labels are sorted by value. The shapes are never changed in place, so grafting shares them.
  * \sa LabelImageToVoxelShapeFilter, VoxelCoreFilter
+ * \ingroup VoxelCore
  */
 class VoxelShapeObject : public VoxelLatticeObject
 {
