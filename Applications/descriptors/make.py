@@ -114,7 +114,7 @@ def galaxy(command, version):
     for file, form in ((result, "data"), ("report.json", "json")):
         ElementTree.SubElement(outputs, "data", name=file.split(".")[0], format=form, from_work_dir=file,
                                label=f"${{tool.name}} on ${{on_string}}: {file}")  # fmt: skip
-    ElementTree.SubElement(tool, "help").text = f"`voxelcore {name} --help` says more, with examples."
+    ElementTree.SubElement(tool, "help").text = f"``voxelcore {name} --help`` says more, with examples."
     cited = ElementTree.SubElement(ElementTree.SubElement(tool, "citations"), "citation", type="bibtex")
     cited.text = CITATION
     ElementTree.indent(tool)

@@ -1,9 +1,11 @@
 """The descriptions for Boutiques and Galaxy keep the rules of these, and the command lines that come of them make what
 the program makes. codemeta.json says what CITATION.cff says. usage: descriptors_test.py PROGRAM OPTIONS.json SOURCE_DIR
 Neither Boutiques nor Galaxy is in Debian: their published schemas' rules, as far as they concern us, stand here.
-Galaxy's templates are filled in by its own engine, where python3-cheetah is installed."""
+Galaxy's templates are filled in by its own engine, where python3-cheetah is installed. VOXELCORE_SCHEMAS may name a
+folder with Boutiques' descriptor.schema.json and Galaxy's galaxy.xsd: what is there is asked, too."""
 
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -48,6 +50,23 @@ def check_boutiques(tool):
     assert set(re.findall(r"\[[^]]*\]", tool["command-line"])) == set(keys)
     codes = [one["code"] for one in tool["error-codes"]]
     assert len(set(codes)) == len(codes)
+
+
+def check_by_schemas(folder):
+    """By the published files themselves; the names of those that were there."""
+    schemas, found = pathlib.Path(os.environ.get("VOXELCORE_SCHEMAS", "/nonexistent")), []
+    if (schemas / "descriptor.schema.json").exists():
+        import jsonschema
+
+        schema = json.loads((schemas / "descriptor.schema.json").read_text())
+        for path in folder.glob("boutiques/*.json"):
+            jsonschema.validate(json.loads(path.read_text()), schema)
+        found.append("descriptor.schema.json")
+    if (schemas / "galaxy.xsd").exists():
+        tools = folder.glob("galaxy/*.xml")
+        subprocess.run(["xmllint", "--noout", "--schema", schemas / "galaxy.xsd", *tools], check=True)
+        found.append("galaxy.xsd")
+    return found
 
 
 def boutiques_line(tool, values):
@@ -134,6 +153,7 @@ def main():
         subprocess.run([sys.executable, make, OPTIONS, version, folder], check=True)
         subprocess.run([PROGRAM, "phantom", "torus", "--size", "32", "-o", folder / "scan.nrrd", "-q"], check=True)
         assert len(list(folder.glob("*/*"))) == 2 * len(chosen)
+        schemas = check_by_schemas(folder)
         for command, (values, result) in chosen.items():
             tool = json.loads((folder / f"boutiques/voxelcore-{command}.json").read_text())
             check_boutiques(tool)
@@ -154,6 +174,7 @@ def main():
                 assert arrays(place / result) == wanted
                 assert all((place / one.get("from_work_dir")).exists() for one in root.find("outputs"))
     print(f"{len(chosen)} commands described" + (", all lines run" if Cheetah else ""))
+    print("published schemas asked:", " and ".join(schemas) or "none, as VOXELCORE_SCHEMAS names no folder with one")
 
 
 main()
