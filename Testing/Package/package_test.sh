@@ -53,8 +53,9 @@ case "$how" in
   find_package)
     [ -d "$moved/second" ] || fail "the test 'install' has not run"
     options=(-DCMAKE_PREFIX_PATH="$moved/second")
-    # The mathematics alone needs no other library.
-    configure "$scratch/core" "${options[@]}" -DPARTS=Core -DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON \
+    # The mathematics alone needs no other library. Headers need C++20, and their targets ask for it: also in a project
+    # that is one of C++17, as many that use ITK are.
+    configure "$scratch/core" "${options[@]}" -DCMAKE_CXX_STANDARD=17 -DPARTS=Core -DCMAKE_DISABLE_FIND_PACKAGE_VTK=ON \
       -DCMAKE_DISABLE_FIND_PACKAGE_TIFF=ON -DCMAKE_DISABLE_FIND_PACKAGE_ITK=ON
     cmake --build "$scratch/core"
     "$scratch/core/UsesCore"
