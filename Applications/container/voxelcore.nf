@@ -27,10 +27,10 @@ process VOXELCORE {
     script:
     def name = scan.simpleName
     """
-    mkdir -p ${name}
-    voxelcore core ${scan} -o ${name}/${name}_medial.vtp --report ${name}/${name}_report.json --threads ${task.cpus} --quiet ${params.options}
-    voxelcore skeleton ${scan} -o ${name}/${name}_skeleton.vtp --also csv --threads ${task.cpus} --quiet
-    voxelcore thickness ${scan} -o ${name}/${name}_thickness.nrrd --table ${name}/${name}_thickness.csv --threads ${task.cpus} --quiet
+    mkdir -p '${name}'
+    voxelcore core ${scan} -o '${name}/${name}_medial.vtp' --report '${name}/${name}_report.json' --threads ${task.cpus} --quiet ${params.options}
+    voxelcore skeleton ${scan} -o '${name}/${name}_skeleton.vtp' --also csv --threads ${task.cpus} --quiet
+    voxelcore thickness ${scan} -o '${name}/${name}_thickness.nrrd' --table '${name}/${name}_thickness.csv' --threads ${task.cpus} --quiet
     """
 }
 

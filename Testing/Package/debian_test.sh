@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Applications/debian, by which Debian builds its packages.
 # usage: debian_test.sh names BUILD_DIR    what it says of version and of what a build needs is said elsewhere, too
-#        debian_test.sh build BUILD_DIR    the commit that is checked out is built by dpkg-buildpackage in a folder of its
-#                                          own; lintian finds nothing; the tests of debian/tests pass with what was built
+#        debian_test.sh build BUILD_DIR    the commit that is checked out is built by dpkg-buildpackage in a folder of
+#                                          its own; lintian finds nothing; debian/tests pass with what was built
 # exit 77: it cannot be done here, with the reason
 set -euo pipefail
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Modules/Scans/ITK as a module of ITK: configured and built as an external module against Debian's ITK and what
-# Package.install has installed; its tests in ITK's own form and its example pass. Debian's package leaves out the macros
-# by which modules are built: they come from its source package, into a folder of this test.
+# Package.install has installed; its tests in ITK's own form and its example pass. Debian's package leaves out the
+# macros by which modules are built: they come from its source package, into a folder of this test.
 # usage: itk_module_test.sh BUILD_DIR [CMAKE_OPTION...]    exit 77: it cannot be done here, with the reason
 # VOXELCORE_DEBIAN_MIRROR: another mirror
 set -euo pipefail
@@ -64,7 +64,8 @@ cmake --build "$scratch/build" >"$scratch/build.log" 2>&1 ||
   { tail -n 30 "$scratch/build.log" >&2; fail "the module cannot be built"; }
 ctest --test-dir "$scratch/build" --output-on-failure --no-tests=error
 # Three of its own, and ITK's own that each class is in the module's group.
-[ "$(ctest --test-dir "$scratch/build" -N | sed -n 's/^Total Tests: //p')" = 4 ] || fail "these are not all of its tests"
+[ "$(ctest --test-dir "$scratch/build" -N | sed -n 's/^Total Tests: //p')" = 4 ] ||
+  fail "these are not all of its tests"
 [ -x "$scratch/build/VoxelCoreHeaderTest1" ] || [ -n "$(find "$scratch" -name VoxelCoreHeaderTest1 -type f)" ] ||
   fail "its headers were not compiled each by itself"
 
