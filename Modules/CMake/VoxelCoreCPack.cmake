@@ -1,6 +1,6 @@
-# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. What they
-# are called, say and need stands in Applications/debian, by which Debian builds them itself. With TetGen in it a package
-# falls under the AGPL as a whole, so it has a name of its own.
+# `cpack` in the build folder makes Debian packages: the program, the libraries and headers, the Python module. What
+# they say and need stands in Applications/debian, by which Debian builds them itself. With TetGen in it a package falls
+# under the AGPL as a whole, so it has a name of its own.
 set(variant "")
 set(other -tetgen)
 set(licence "")

@@ -44,7 +44,7 @@ class Backend:
         except (OSError, subprocess.TimeoutExpired):
             found = None
         if not found:
-            raise VoxelCoreError(f"{self.words[0]}: it does not say which VoxelCore it is; choose another under Advanced")
+            raise VoxelCoreError(f"{self.words[0]}: it is no VoxelCore that runs here; choose another under Advanced")
         return found[1].decode()
 
 
