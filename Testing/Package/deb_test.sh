@@ -43,6 +43,9 @@ for name in voxelcore libvoxelcore-dev python3-voxelcore; do
   done
   [ "$(grep -c 'libtet1' <<<"$depends")" = "$([ -n "$suffix" ] && echo 1 || echo 0)" ] ||
     fail "$name and TetGen: $depends"
+  described=$(dpkg-deb -f "$file" Description)
+  grep -qxF "Description: $(head -n 1 <<<"$described")" "$source/Applications/debian/control" &&
+    ! grep -q '^  ' <<<"$described" || fail "$name is described otherwise than in debian/control: $described"
   dpkg -x "$file" "$scratch/root"
   said=$scratch/root/usr/share/doc/$name$suffix/copyright
   [ "$(grep -c 'under the AGPL-3 as a whole' "$said")" = "$([ -n "$suffix" ] && echo 1 || echo 0)" ] &&
