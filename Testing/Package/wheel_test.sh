@@ -48,6 +48,12 @@ grep -qx 'voxelcore = voxelcore:napari.json' "$scratch"/unpacked/voxelcore-*.dis
 packages=$("$scratch/clean/bin/pip" list --format=freeze | sed 's/==.*//' | grep -vxE 'pip|setuptools|wheel' | sort |
   tr '\n' ' ')
 [ "$packages" = "numpy voxelcore " ] || fail "installed are $packages"
+# What cibuildwheel would run on its wheels.
+command=$(sed -n '/CIBW_TEST_COMMAND:/,/^      - /p' "$source/.github/workflows/wheels.yml" |
+  sed -e '1s/.*CIBW_TEST_COMMAND: //' -e '$d' | tr -s '\n ' ' ')
+[[ $command == 'python -c '*betti* ]] || fail "which test has wheels.yml? $command"
+(cd "$scratch/empty" && env -u PYTHONPATH PATH="$scratch/clean/bin:$PATH" bash -euc "$command") ||
+  fail "the test of wheels.yml fails"
 cd "$scratch/empty"
 unset PYTHONPATH
 sed -n '/^```python$/,/^```$/p' "$source/Applications/Python/README.md" | grep -v '^```' >example.py

@@ -39,7 +39,7 @@ class Backend:
         words = [self.words[0], "--version"] if self.kind == "program" else [self.words[0], "-c", said]
         try:
             done = subprocess.run(words, env=self.environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                  stderr=subprocess.DEVNULL, timeout=20)  # fmt: skip
+                                  stderr=subprocess.DEVNULL, timeout=5)  # fmt: skip
             found = re.match(rb"voxelcore (\d+\.\d+\.\d+)\s", done.stdout)
         except (OSError, subprocess.TimeoutExpired):
             found = None
