@@ -131,6 +131,57 @@ TEST_F(BatchCommand, ASeasonOfRootsIsComparedByTraitsAndTheOddPlantIsMarked)
   EXPECT_THAT(Batch({ "--roots", "--up", "z+", m_Folder / "season/m.csv" }).output, HasSubstr("6 of them before"));
 }
 
+TEST_F(BatchCommand, ComparisonsOfManyScansHaveTheNumbersOfEachTheirMeansAndIntervals)
+{
+  std::filesystem::create_directory(m_Folder / "pairs");
+  std::string manifest = "id,scan,b,no-skeletons\n";
+  for (int pair = 1; pair <= 3; ++pair)
+  {
+    const auto ball = [&](const std::string & name, int size) {
+      RunProgram(
+        { "phantom", "ball", "--size", std::to_string(size), "-o", m_Folder / ("pairs/" + name + ".nrrd"), "-q" });
+      return name + ".nrrd";
+    };
+    const std::string number = std::to_string(pair);
+    manifest += "p" + number + "," + ball("a" + number, 20) + "," + ball("b" + number, 20 + 2 * (pair - 1)) + ",yes\n";
+  }
+  WriteAll(m_Folder / "pairs/m.csv", manifest);
+  const ProgramResult result = Batch({ "--compare", m_Folder / "pairs/m.csv" });
+  EXPECT_EQ(result.code, 0) << result.error;
+  std::istringstream lines(ReadAll(m_Folder / "out/labels.csv"));
+  std::string        head;
+  std::getline(lines, head);
+  std::vector<double> dice;
+  for (std::string line; std::getline(lines, line);)
+  {
+    dice.push_back(std::stod(Field(head, line, "compare_dice")));
+    EXPECT_FALSE(Field(head, line, "compare_hausdorff_mm").empty()) << line;
+  }
+  ASSERT_EQ(dice.size(), 3U);
+  EXPECT_EQ(dice[0], 1);
+  EXPECT_LT(dice[1], 1);
+  const std::string means = ReadAll(m_Folder / "out/means.csv");
+  const std::size_t at = means.find(",dice,");
+  ASSERT_NE(at, std::string::npos) << means;
+  std::istringstream numbers(means.substr(at + 6, means.find('\n', at) - at - 6));
+  std::string        cases;
+  std::string        mean;
+  std::getline(numbers, cases, ',');
+  std::getline(numbers, mean, ',');
+  EXPECT_EQ(cases, "3");
+  EXPECT_NEAR(std::stod(mean), (dice[0] + dice[1] + dice[2]) / 3, 1e-9);
+  EXPECT_THAT(ReadAll(m_Folder / "out/index.html"), HasSubstr("Hausdorff 95 %"));
+  EXPECT_THAT(Batch({ "--compare", m_Folder / "pairs/m.csv" }).output, HasSubstr("3 of them before"));
+  // The file beside the scan counts as the scan does.
+  std::filesystem::copy_file(m_Folder / "pairs/a1.nrrd",
+                             m_Folder / "pairs/b3.nrrd",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_THAT(Batch({ "--compare", m_Folder / "pairs/m.csv" }).output, HasSubstr("2 of them before"));
+  const ProgramResult without = Batch({ "--compare", m_Folder / "pairs/a1.nrrd" });
+  EXPECT_EQ(without.code, 2);
+  EXPECT_THAT(without.error, HasSubstr("columns id, scan and b"));
+}
+
 TEST_F(BatchCommand, ThicknessOfManyScansHasTheNumbersOfEachAndTheOddOneIsMarked)
 {
   std::filesystem::create_directory(m_Folder / "bones");

@@ -213,7 +213,7 @@ def compare(a, b, *, spacing=None, label=None, axes=None, threshold=None, progre
     Parameters
     ----------
     a : Core, Skeleton, array_like of whole numbers, image, or path
-        Arrays, images and paths as of core(); or the path of a result (.vtp) or of a tree (.swc, .rsml).
+        Arrays, images and paths as of core(); or the path of a result (.vtp) or of a tree (.swc, .rsml, .graphml).
     b : Core, Skeleton, array_like of whole numbers, image, or path
         The same.
     spacing : float, three floats, or str, mm, optional
@@ -256,7 +256,7 @@ def compare(a, b, *, spacing=None, label=None, axes=None, threshold=None, progre
     def side(source):
         if isinstance(source, (Core, Skeleton)):
             return (source._data,)
-        if isinstance(source, (str, os.PathLike)) and os.fspath(source).endswith((".vtp", ".swc", ".rsml")):
+        if isinstance(source, (str, os.PathLike)) and os.fspath(source).endswith((".vtp", ".swc", ".rsml", ".graphml")):
             return (os.fsencode(source),)
         one = taken(source)[0]
         return (one.array, one.spacing, one.origin or [0.0] * 3, one.direction or [1.0, 0, 0, 0, 1, 0, 0, 0, 1])

@@ -1,4 +1,4 @@
-#include "LabelGroups.h"
+#include "voxelcore/Jobs/LabelGroups.h"
 #include "VoxelCoreTesting/Threads.h"
 
 #include "VoxelCoreTesting/TemporaryFolder.h"

@@ -1,10 +1,13 @@
 #include "CaseTable.h"
+#include "CohortMeans.h"
 #include "CohortPage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string_view>
+#include <utility>
 
 namespace voxelcore
 {
@@ -99,13 +102,13 @@ TEST(CohortTables, ThePageShowsLengthsInOneUnitThatSuitsItsLargestBody)
   EXPECT_EQ(data["columns"][0], "volume µm³");
   EXPECT_EQ(data["columns"][1], "area µm²");
   EXPECT_EQ(data["columns"][2], "max radius µm");
-  EXPECT_EQ(data["columns"][4], "loops");
+  EXPECT_EQ(data["columns"][3], "loops");
   const Row & values = data["cases"][0]["labels"][0]["values"];
   EXPECT_NEAR(values[0].get<double>(), 8, 1e-9);
   EXPECT_NEAR(values[1].get<double>(), 3, 1e-9);
   EXPECT_NEAR(values[2].get<double>(), 0.5, 1e-9);
-  EXPECT_EQ(values[4], 7);
-  EXPECT_EQ(data["columns"].size(), 6U);
+  EXPECT_EQ(values[3], 7);
+  EXPECT_EQ(data["columns"].size(), 4U) << "others have no value here";
   EXPECT_NEAR(data["cases"][0]["labels"][1]["values"][0].get<double>(), 1e-3, 1e-9);
   // Of bodies that one would measure in mm nothing changes.
   data = PageData(Volumes({ 1234.5, 8e-9 }));
@@ -135,6 +138,38 @@ TEST(CohortTables, HistogramsOfThicknessGoWithTheirUnitAndColumnsThatNoCaseHasAr
   const Row & second = data["cases"][0]["labels"][1];
   EXPECT_TRUE(second["histogram"].is_null());
   EXPECT_TRUE(second["certificate"].is_null());
+}
+
+TEST(CohortTables, IntervalsOfMeansAreStudents)
+{
+  // Quantiles at 0.975 as tables have them (Abramowitz and Stegun, table 26.10; the last of 1000 degrees of freedom).
+  const std::pair<std::size_t, double> quantiles[] = { { 2, 12.706205 },  { 3, 4.302653 },  { 4, 3.182446 },
+                                                       { 5, 2.776445 },   { 10, 2.262157 }, { 31, 2.042272 },
+                                                       { 1001, 1.962339 } };
+  for (const auto & [n, quantile] : quantiles)
+  {
+    EXPECT_NEAR(StudentHalfWidth(n), quantile, 1e-6) << n;
+  }
+  std::vector<Row> rows = Volumes({ 1, 1, 1, 1 });
+  rows[2]["label"] = 2;
+  rows[0]["compare_dice"] = 0.9;
+  rows[1]["compare_dice"] = 0.7;
+  rows[2]["compare_dice"] = 0.5;
+  rows[3]["compare_dice"] = nullptr; // of nothing
+  const auto means = MeansOfComparisons(rows);
+  ASSERT_EQ(means.size(), 2U);
+  const Row & one = means[0];
+  EXPECT_EQ(one["measure"], "dice");
+  EXPECT_EQ(one["name"], "liver");
+  EXPECT_EQ(one["cases"], 2);
+  EXPECT_NEAR(one["mean"].get<double>(), 0.8, 1e-12);
+  EXPECT_NEAR(one["sd"].get<double>(), std::sqrt(0.02), 1e-12);
+  EXPECT_NEAR(one["ci95_high"].get<double>(), 0.8 + 12.706205 * 0.1, 1e-6);
+  EXPECT_NEAR(one["ci95_low"].get<double>(), 0.8 - 12.706205 * 0.1, 1e-6);
+  EXPECT_NEAR(one["median"].get<double>(), 0.8, 1e-12);
+  EXPECT_EQ(means[1]["label"], 2);
+  EXPECT_FALSE(means[1].contains("ci95_low")) << "a single case has none";
+  EXPECT_TRUE(MeansOfComparisons(Volumes({ 1, 2 })).empty());
 }
 
 TEST(CohortTables, NothingOfACaseIsMarkupOnThePage)

@@ -96,6 +96,13 @@ TEST_F(Manifest, MasksAreLookedForFromItsFolderAsScansAre)
   EXPECT_EQ(here[3].values.at("within"), "./roi") << "no label";
 }
 
+TEST_F(Manifest, WhatACaseIsComparedWithIsAFileOfEachRow)
+{
+  const auto cases = Read("id,scan,b\na,a.nii,net/a.nii\nb,b.vtp,/data/b.swc\n");
+  EXPECT_EQ(cases[0].values.at("b"), m_Folder / "net/a.nii");
+  EXPECT_EQ(cases[1].values.at("b"), "/data/b.swc");
+}
+
 TEST_F(Manifest, MistypedColumnsSuggestTheNearest)
 {
   EXPECT_THAT(Refusal("id,scan,lamda\na,b,1\n"), HasSubstr("'lamda' is not known; did you mean 'lambda'?"));

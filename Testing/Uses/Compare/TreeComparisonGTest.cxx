@@ -171,6 +171,27 @@ TEST(TreeComparison, RadiiAreComparedWhereTheTreeIsFound)
 }
 
 // A circle and one of 5 % more: everywhere the difference of their radii apart, but for the chords of their polygons.
+TEST(TreeComparison, AnglesDifferByWhatABranchIsTurned)
+{
+  // A fork whose branches leave at 45 degrees to either side, against one of which the first leaves at `turned`; bent
+  // beyond two radii, which is not seen.
+  for (const double turned : { 45.0, 50.0, 25.0 })
+  {
+    const double        rad = turned * std::numbers::pi / 180;
+    const Vector3       fork{ 20, 0, 0 };
+    const Vector3       knee{ 20 + 4 * std::cos(rad), 4 * std::sin(rad), 0 };
+    const SkeletonGraph a = GraphOf(Fork(), 1);
+    const SkeletonGraph b = GraphOf(
+      { { { 0, 0, 0 }, fork }, { { 30, 10, 0 }, { knee[0], knee[1], 3 }, knee, fork }, { fork, { 30, -10, 0 } } },
+      1);
+    const TreeComparison compared = CompareTrees(a, b, {});
+    ASSERT_EQ(Counted(compared.bifurcations), (std::array<int, 3>{ 1, 0, 0 }));
+    // Of three angles the one between trunk and second branch stays; the others change by as much each.
+    EXPECT_NEAR(compared.bifurcations[0].angleError, 2 * std::abs(turned - 45) / 3, 1e-9);
+    EXPECT_TRUE(std::isnan(compared.tips[0].angleError));
+  }
+}
+
 TEST(TreeComparison, ConcentricCirclesAreApartByTheDifferenceOfTheirRadii)
 {
   const auto circle = [](double radius) {

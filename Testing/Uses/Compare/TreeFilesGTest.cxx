@@ -126,6 +126,44 @@ TEST_F(TreeFiles, CentreLinesOfAPhantomAreTheSameInBothForms)
   EXPECT_EQ(std::ranges::count(swc.nodeKinds, NodeKind::Tip), std::ranges::count(rsml.nodeKinds, NodeKind::Tip));
 }
 
+TEST_F(TreeFiles, GraphMlOfOursIsReadAgainWithItsCourse)
+{
+  for (const SpatialUnit unit : { SpatialUnit::Millimetres, SpatialUnit::Voxels })
+  {
+    SkeletonModel model;
+    model.unit = unit;
+    model.parts.resize(1);
+    model.parts[0].graph = GraphOf({ { { 0, 0, 0 }, { 5, 2, 0 }, { 7, -1, 0 }, { 9, 1, 0 } },
+                                     { { 9, 1, 0 }, { 9, 8, 0 } },
+                                     { { 9, 1, 0 }, { 20, 1, 3 }, { 20, 9, 3 }, { 9, 1, 0 } } },
+                                   0.75);
+    model.parts[0].table = MeasureBranches(model.parts[0].graph);
+    WriteGraphMl(At("own.graphml"), model);
+    const SkeletonModel   read = ReadTreeFile(At("own.graphml"));
+    const SkeletonGraph & graph = read.parts[0].graph;
+    EXPECT_EQ(read.unit, unit);
+    EXPECT_EQ(graph.BranchCount(), 3U);
+    EXPECT_NEAR(LengthOf(graph), LengthOf(model.parts[0].graph), 1e-6);
+    EXPECT_EQ(graph.positions.size(), model.parts[0].graph.positions.size());
+    EXPECT_TRUE(std::ranges::all_of(graph.radius, [](double radius) { return std::abs(radius - 0.75) < 1e-9; }));
+  }
+}
+
+TEST_F(TreeFiles, GraphMlOfOthersHasStraightEdgesBetweenNodesWithPlaces)
+{
+  // As networkx writes it: keys of any id, an edge before its nodes, data that means nothing here.
+  const SkeletonGraph graph =
+    Read("a.graphml",
+         "<?xml version='1.0' encoding='utf-8'?><graphml xmlns='http://graphml.graphdrawing.org/xmlns'>"
+         "<key id='d4' for='edge' attr.name='weight' attr.type='double'/><key id='d0' for='node' attr.name='x' "
+         "attr.type='double'/><key id='d1' for='node' attr.name='y' attr.type='double'/><key id='d2' for='node' "
+         "attr.name='radius' attr.type='double'/><graph edgedefault='undirected'><edge source='a b' target='c'>"
+         "<data key='d4'>7</data></edge><node id='a b'><data key='d0'>1</data><data key='d1'>2</data><data key='d2'>.5"
+         "</data></node><node id='c'><data key='d0'>4</data><data key='d1'>6</data></node></graph></graphml>");
+  EXPECT_DOUBLE_EQ(LengthOf(graph), 5);
+  EXPECT_EQ(graph.radius, (std::vector<double>{ 0.5, 0 }));
+}
+
 TEST_F(TreeFiles, WhatIsNoTreeIsRefused)
 {
   ExpectRefused("a.swc", "", "no point");
@@ -140,6 +178,27 @@ TEST_F(TreeFiles, WhatIsNoTreeIsRefused)
   ExpectRefused("a.rsml", "<!DOCTYPE rsml><rsml/>", "document type");
   const std::string point = "<root><geometry><polyline><point x='0' y='a'/></polyline></geometry></root>";
   ExpectRefused("a.rsml", Rsml(point), "a point of a polyline");
+  const auto graphMl = [](const std::string & inner) {
+    return "<graphml><key id='x' attr.name='x'/><key id='y' attr.name='y'/><key id='p' attr.name='points'/>"
+           "<key id='r' attr.name='radius'/><key id='u' attr.name='unit'/><graph>" +
+           inner + "</graph></graphml>";
+  };
+  const auto node = [](const std::string & id, const std::string & x) {
+    return "<node id='" + id + "'><data key='x'>" + x + "</data><data key='y'>0</data></node>";
+  };
+  ExpectRefused("a.graphml", "<graphml>", "line 1");
+  ExpectRefused("a.graphml", graphMl(""), "no node");
+  ExpectRefused("a.graphml", graphMl("<node id='a'><data key='x'>1</data></node>"), "no data named x and y");
+  ExpectRefused("a.graphml", graphMl(node("a", "1") + node("a", "2")), "two nodes have the id 'a'");
+  ExpectRefused("a.graphml", graphMl(node("a", "nan")), "'nan'");
+  ExpectRefused("a.graphml", graphMl(node("a", "1") + "<edge source='a' target='b'/>"), "no node's id: 'b'");
+  ExpectRefused("a.graphml",
+                graphMl(node("a", "1") + "<edge source='a' target='a'><data key='p'>1 2 3</data></edge>"),
+                "not four numbers");
+  ExpectRefused("a.graphml",
+                graphMl(node("a", "1") + "<edge source='a' target='a'><data key='p'>1 2 3 -1</data></edge>"),
+                "a radius is below 0");
+  ExpectRefused("a.graphml", graphMl("<data key='u'>inch</data>" + node("a", "1")), "its unit is 'inch'");
   EXPECT_THROW(ReadTreeFile(At("none.swc")), InputError);
   EXPECT_FALSE(IsTreePath("a.vtp"));
 }

@@ -330,7 +330,10 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
   {
     key(name, "edge", "int");
   }
-  file << "  <graph id=\"skeleton\" edgedefault=\"undirected\">\n";
+  key("points", "edge", "string");
+  key("unit", "graph", "string");
+  file << "  <graph id=\"skeleton\" edgedefault=\"undirected\">\n    <data key=\"unit\">"
+       << std::string_view(UnitName(model.unit)) << "</data>\n";
   for (std::size_t p = 0; p < model.parts.size(); ++p)
   {
     const SkeletonPart & part = model.parts[p];
@@ -367,7 +370,15 @@ WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model)
       data("branch_id", branch);
       data("strahler", record.strahler);
       data("level", record.level);
-      file << "</edge>\n";
+      const auto points = part.graph.Branch(branch);
+      file << "<data key=\"points\">";
+      for (std::size_t i = 1; i + 1 < points.size(); ++i)
+      {
+        const Vector3 & place = part.graph.positions[points[i]];
+        file << std::string_view(i > 1 ? " " : "") << place[0] << " " << place[1] << " " << place[2] << " "
+             << SectionRadii(part.graph)[points[i]];
+      }
+      file << "</data></edge>\n";
     }
   }
   file << "  </graph>\n</graphml>\n";

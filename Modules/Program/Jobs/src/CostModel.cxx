@@ -2,7 +2,7 @@
 
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Base/ParseReal.h"
-#include "LabelGroups.h"
+#include "voxelcore/Jobs/LabelGroups.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Jobs/OutputNames.h"
 

@@ -1,4 +1,4 @@
-#include "LabelGroups.h"
+#include "voxelcore/Jobs/LabelGroups.h"
 
 #include "voxelcore/Base/Error.h"
 

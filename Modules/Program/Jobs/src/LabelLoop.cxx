@@ -1,7 +1,7 @@
 #include "voxelcore/Jobs/LabelLoop.h"
 
 #include "voxelcore/Jobs/JobTools.h"
-#include "LabelGroups.h"
+#include "voxelcore/Jobs/LabelGroups.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Jobs/BlockJob.h"

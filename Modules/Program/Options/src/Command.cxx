@@ -82,7 +82,10 @@ AssembleCommands(std::span<const Command * const> commands, std::span<const Exte
       }
       for (const Parameter & row : ofCases)
       {
-        Add(rows, row);
+        if (!row.flags.empty()) // of what is beside the scan each case has its own
+        {
+          Add(rows, row);
+        }
       }
     }
     command.rows = rows;
@@ -125,7 +128,8 @@ OptionsOfCases(std::span<const Command> commands)
   {
     for (const Parameter & row : command.asCase != nullptr ? command.rows : std::span<const Parameter>())
     {
-      if (row.kind != ParameterKind::Input && row.kind != ParameterKind::Output && !row.ofOneRun)
+      const bool isBeside = row.name == command.asCase->beside;
+      if (isBeside || (row.kind != ParameterKind::Input && row.kind != ParameterKind::Output && !row.ofOneRun))
       {
         Add(all, row);
       }

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 namespace
 {
 
+constexpr std::ptrdiff_t kBehindScan = 3; ///< of the arguments: voxelcore COMMAND SCAN
+
 /** A path that no parser takes for an option or a command. */
 std::string
 PlainPath(const fs::path & path)
@@ -120,8 +122,15 @@ MakeCaseJob(const CohortCase & one, const BatchOptions & options)
     if (!isFlag || value->second == "true")
     {
       const std::string argument = isFlag ? flag : flag + "=" + value->second;
-      job.arguments.push_back(argument);
-      job.options += (NamesMask(parameter.name, value->second) ? flag : argument) + "\n"; // a mask is its content
+      if (parameter.name == command.asCase->beside)
+      {
+        job.arguments.insert(job.arguments.begin() + kBehindScan, PlainPath(value->second));
+      }
+      else
+      {
+        job.arguments.push_back(argument);
+      }
+      job.options += (NamesFileOf(parameter, value->second) ? flag : argument) + "\n"; // a file is its content
       given.insert(*value);
     }
   }

@@ -196,7 +196,8 @@ ScanDigestOfResults(const fs::path & folder)
   const std::string text{ std::istreambuf_iterator<char>(file), {} };
   try
   {
-    return Json::parse(PlainJson(text)).at("input").at("sha256").get<std::string>();
+    const Json report = Json::parse(PlainJson(text));
+    return report.at(report.contains("input") ? "input" : "a").at("sha256").get<std::string>();
   }
   catch (const nlohmann::json::exception &)
   {

@@ -25,6 +25,15 @@ const std::map<std::string, const char *> kOwnColumns{
   { "labels", "number of its labels" },
   { "label", "value of the label" },
   { "name", "name of the label" },
+  { "measure", "column compare_... of labels.csv" },
+  { "cases", "in which the measure exists" },
+  { "mean", "of these, in the measure's unit" },
+  { "ci95_low", "95 % interval of the mean, by Student's t" },
+  { "ci95_high", "its upper end" },
+  { "sd", "standard deviation of the cases" },
+  { "median", "of the cases" },
+  { "min", "the least" },
+  { "max", "the greatest" },
   { "outliers", "columns in which the row stands out, each with + or -" },
 };
 

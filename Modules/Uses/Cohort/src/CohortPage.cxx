@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
-#include <string_view>
+#include <utility>
 
 namespace voxelcore
 {
@@ -55,10 +55,20 @@ constexpr PageColumn kColumns[] = {
   { "median", "thickness_median_mm", 1 },
   { "95 %", "thickness_p95_mm", 1 },
   { "max", "thickness_max_mm", 1 },
+  { "Dice", "compare_dice" },
+  { "clDice", "compare_cl_dice" },
+  { "Hausdorff 95 %", "compare_hausdorff_95_mm", 1 },
+  { "mean distance", "compare_mean_distance_mm", 1 },
+  { "pieces' error", "compare_b0_error_26" },
+  { "loops' error", "compare_b1_error_26" },
+  { "cavities' error", "compare_b2_error_26" },
+  { "length found", "compare_tree_length_detected" },
+  { "branches found", "compare_branches_detected" },
+  { "leakage", "compare_leakage_ratio" },
+  { "tips missed", "compare_tips_missed" },
+  { "tips invented", "compare_tips_invented" },
+  { "axes apart", "compare_axis_distance_mm", 1 },
 };
-
-/** Columns that go where no case has them. */
-constexpr std::string_view kOfOneCommand[] = { "plant_", "thickness_", "skeleton_" };
 
 /** JSON that no parser of HTML takes for an end tag or a comment. */
 std::string
@@ -92,30 +102,46 @@ HasColumn(const std::vector<PageCase> & cases, const std::string & key)
   });
 }
 
+/** Of one command each, what says how large a body is, and in which power of mm. */
+constexpr std::pair<const char *, int> kSizes[] = { { "volume_mm3", 3 },
+                                                    { "compare_volume_a_mm3", 3 },
+                                                    { "compare_length_a_mm", 1 } };
+
+bool
+HasSizes(const std::vector<PageCase> & cases, SpatialUnit lengths)
+{
+  return ranges::any_of(kSizes, [&](const auto & size) { return HasColumn(cases, InUnit(size.first, lengths)); });
+}
+
 /** One for the whole page, by its largest body, as `info` does for a scan. */
 LengthUnit
 UnitOf(const std::vector<PageCase> & cases, SpatialUnit lengths)
 {
-  const std::string volume = InUnit("volume_mm3", lengths);
-  double            largest = 0;
+  double largest = 0;
   for (const PageCase & one : cases)
   {
     for (const Row & row : one.labels)
     {
-      const auto found = row.find(volume);
-      largest = std::max(largest, found != row.end() && found->is_number() ? found->get<double>() : 0.0);
+      for (const auto & [key, power] : kSizes)
+      {
+        if (const auto found = row.find(InUnit(key, lengths)); found != row.end() && found->is_number())
+        {
+          const double size = found->get<double>();
+          largest = std::max(largest, power == 3 ? std::cbrt(size) : size);
+        }
+      }
     }
   }
-  return LengthUnit::For(std::cbrt(largest), lengths);
+  return LengthUnit::For(largest, lengths);
 }
 
 /** Cases without a voxel size have columns of their own, in voxels. */
 std::vector<ShownColumn>
 ColumnsOf(const std::vector<PageCase> & cases)
 {
-  const bool               inVoxels = HasColumn(cases, InUnit("volume_mm3", SpatialUnit::Voxels));
+  const bool               inVoxels = HasSizes(cases, SpatialUnit::Voxels);
   std::vector<SpatialUnit> units;
-  if (!inVoxels || HasColumn(cases, "volume_mm3"))
+  if (!inVoxels || HasSizes(cases, SpatialUnit::Millimetres))
   {
     units.push_back(SpatialUnit::Millimetres);
   }
@@ -126,12 +152,9 @@ ColumnsOf(const std::vector<PageCase> & cases)
   std::vector<ShownColumn> columns;
   for (const PageColumn & column : kColumns)
   {
-    const std::string_view key = column.key;
-    const bool             isOfOneCommand =
-      ranges::any_of(kOfOneCommand, [&](std::string_view prefix) { return key.starts_with(prefix); });
-    if (isOfOneCommand && !HasColumn(cases, column.key) && !HasColumn(cases, InUnit(column.key, SpatialUnit::Voxels)))
+    if (!HasColumn(cases, column.key) && !HasColumn(cases, InUnit(column.key, SpatialUnit::Voxels)))
     {
-      continue; // no batch of it
+      continue; // of another command
     }
     for (const SpatialUnit lengths : column.power > 0 ? units : std::vector{ units.front() })
     {

@@ -3,6 +3,7 @@
 #include "BidsDataset.h"
 #include "CaseLock.h"
 #include "CaseTable.h"
+#include "CohortMeans.h"
 #include "CohortPage.h"
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/JsonText.h"
@@ -167,10 +168,39 @@ AddThickness(const std::string & folder, const CaseRecord & record, const Json &
   }
 }
 
+/** A row a label of 'voxelcore compare', its measures as compare_..., with units where they have some; the case's row
+ *  gets what was compared. \throws Json::exception when the report is not as it is written */
+std::vector<Row>
+TakeComparison(const std::string & folder, const CaseRecord & record, const Json & report, Row & row)
+{
+  std::vector<Row> labels;
+  const Json &     units = report.at("units");
+  for (const Json & label : report.at("labels"))
+  {
+    Json measures = Json::object();
+    for (const auto & [key, value] : label.items())
+    {
+      if (key != "label" && key != "name")
+      {
+        measures[units.contains(key) ? key + "_" + units.at(key).get<std::string>() : key] = value;
+      }
+    }
+    labels.push_back(LabelRow(folder, record, { { "label", label.at("label") }, { "name", label.at("name") } }));
+    Flatten(measures, "compare", {}, labels.back());
+  }
+  row["labels"] = labels.size();
+  Flatten(report, "", { "labels", "units", "differences", "branches", "levels" }, row);
+  return labels;
+}
+
 /** Adds what a report says to its case's row; returns a row a label. \throws Json::exception when it is damaged */
 std::vector<Row>
 TakeReport(const std::string & folder, const CaseRecord & record, const Json & report, Row & row)
 {
+  if (report.contains("kind"))
+  {
+    return TakeComparison(folder, record, report, row);
+  }
   std::vector<Row> labels;
   for (const Json & label : report.at("labels"))
   {
@@ -283,9 +313,17 @@ GatherCohort(const fs::path &                folder,
   const auto        labelColumns = ColumnsOf(labelRows);
   WriteTextFile(transaction.Stage(folder / "cases.csv"), CsvTable(caseRows, caseColumns, units));
   WriteTextFile(transaction.Stage(folder / "labels.csv"), CsvTable(labelRows, labelColumns, units));
-  WriteTextFile(transaction.Stage(folder / "columns.json"),
-                TablesJson({ { "cases", ColumnsJson(caseColumns, SpatialUnit::Millimetres) },
-                             { "labels", ColumnsJson(labelColumns, SpatialUnit::Millimetres) } }));
+  std::vector<std::pair<const char *, std::string>> meanings{
+    { "cases", ColumnsJson(caseColumns, SpatialUnit::Millimetres) },
+    { "labels", ColumnsJson(labelColumns, SpatialUnit::Millimetres) }
+  };
+  if (const std::vector<Row> means = MeansOfComparisons(labelRows); !means.empty())
+  {
+    const auto columns = ColumnsOf(means);
+    WriteTextFile(transaction.Stage(folder / "means.csv"), CsvTable(means, columns, units));
+    meanings.emplace_back("means", ColumnsJson(columns, SpatialUnit::Millimetres));
+  }
+  WriteTextFile(transaction.Stage(folder / "columns.json"), TablesJson(meanings));
   WriteTextFile(transaction.Stage(folder / "dataset_description.json"), Description());
   WriteTextFile(transaction.Stage(folder / "index.html"), CohortPage(pageCases));
   if (bids)

@@ -141,12 +141,12 @@ RolesOf(const CsvRow & head, std::span<const Parameter> options, const std::stri
   return roles;
 }
 
-/** A relative path of a mask, from the folder of the manifest; without one it still looks like a path. */
+/** A relative path of a file, from the folder of the manifest; without one it still looks like a path. */
 std::string
-MaskFrom(const fs::path & folder, const std::string & text)
+FileFrom(const fs::path & folder, const std::string & text)
 {
   const std::string path = (folder / text).lexically_normal().string();
-  return NamesMask("within", path) ? path : "./" + path;
+  return NamesFile(path) ? path : "./" + path;
 }
 
 /** A field of a flag; empty text for "not given". */
@@ -214,8 +214,8 @@ CaseFrom(const CsvRow &                  row,
       }
       one.values[std::string(option.name)] = option.kind == ParameterKind::Flag
                                                ? FlagValue(text, where + ": " + std::string(option.name))
-                                             : NamesMask(option.name, text) ? MaskFrom(folder, text)
-                                                                            : text;
+                                             : NamesFileOf(option, text) ? FileFrom(folder, text)
+                                                                         : text;
     }
   }
   if (one.id.empty() || one.scan.empty())
@@ -229,9 +229,9 @@ CaseFrom(const CsvRow &                  row,
 } // namespace
 
 bool
-NamesMask(std::string_view option, const std::string & value)
+NamesFileOf(const Parameter & option, const std::string & value)
 {
-  return option == "within" && NamesFile(value);
+  return option.kind == ParameterKind::Input || (option.name == "within" && NamesFile(value));
 }
 
 std::string

@@ -18,14 +18,31 @@ constexpr double      kFar = 3.5;
 constexpr double      kMedianToDeviation = 1.4826;
 constexpr double      kMeanToDeviation = 1.2533;
 
-constexpr std::array<const char *, 21> kCompared{
-  "volume_mm3",      "pruned_0_area_mm2",    "core_max_radius_mm",       "skeleton_branches",
-  "skeleton_tips",   "skeleton_junctions",   "skeleton_total_length_mm", "skeleton_mean_radius_mm",
-  "plant_roots",     "plant_stem_length_mm", "plant_stem_diameter_mm",   "plant_total_length_mm",
-  "plant_depth_mm",  "plant_width_mm",       "plant_hull_volume_mm3",    "plant_whorls",
-  "plant_contacts",  "thickness_mean_mm",    "thickness_sd_mm",          "thickness_median_mm",
-  "thickness_max_mm"
-};
+constexpr auto kCompared = std::to_array<const char *>({ "volume_mm3",
+                                                         "pruned_0_area_mm2",
+                                                         "core_max_radius_mm",
+                                                         "skeleton_branches",
+                                                         "skeleton_tips",
+                                                         "skeleton_junctions",
+                                                         "skeleton_total_length_mm",
+                                                         "skeleton_mean_radius_mm",
+                                                         "plant_roots",
+                                                         "plant_stem_length_mm",
+                                                         "plant_stem_diameter_mm",
+                                                         "plant_total_length_mm",
+                                                         "plant_depth_mm",
+                                                         "plant_width_mm",
+                                                         "plant_hull_volume_mm3",
+                                                         "plant_whorls",
+                                                         "plant_contacts",
+                                                         "thickness_mean_mm",
+                                                         "thickness_sd_mm",
+                                                         "thickness_median_mm",
+                                                         "thickness_max_mm",
+                                                         "compare_dice",
+                                                         "compare_cl_dice",
+                                                         "compare_hausdorff_95_mm",
+                                                         "compare_tree_length_detected" });
 
 double
 Median(std::vector<double> values)

@@ -2,6 +2,7 @@
 
 #include "voxelcore/Compare/CompareCommand.h"
 
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Options/FieldReader.h"
 #include "voxelcore/Options/ParameterReader.h"
 #include "voxelcore/Options/Requests.h"
@@ -21,7 +22,7 @@ constexpr auto kCompareOwn = std::to_array<Parameter>({
     "",
     true,
     Group::Input,
-    "The reference: a scan with labels, a skeleton (.vtp .swc .rsml) or a medial surface (.vtp)" },
+    "The reference: a scan with labels, a skeleton (.vtp .swc .rsml .graphml) or a medial surface (.vtp)" },
   { "b", "", Input, "B", "", true, Group::Input, "What is compared with it" },
   { "output",
     "-o,--output",
@@ -121,6 +122,34 @@ CompareOptionsFrom(const ParameterValues & values)
 namespace
 {
 
+std::vector<std::string>
+CaseArguments(const CasePlace & place)
+{
+  return { "--table", place.Stem() + "_compared.csv", "--report", place.Stem() + "_report.json" };
+}
+
+CaseInput
+Understand(const ParameterValues & values)
+{
+  const auto b = values.find("b");
+  if (b == values.end())
+  {
+    throw UsageError("what to compare it with is missing; give a manifest.csv with the columns id, scan and b");
+  }
+  return { CompareOptionsWithoutFiles(values).making.reading, { b->second } };
+}
+
+constexpr AsCase kAsCase{
+  .arguments = CaseArguments,
+  .understand = Understand,
+  .flag = "--compare",
+  .description =
+    "Run 'voxelcore compare' on each scan and the file in the manifest's column b; means.csv holds means "
+    "and intervals",
+  .hasBids = false,
+  .beside = "b",
+};
+
 Outcome
 Run(const Invocation & call)
 {
@@ -137,6 +166,7 @@ constinit const Command kCompareCommand{ .name = "compare",
                                          .footer = kFooter,
                                          .place = 110,
                                          .rows = table::kCompareRows,
-                                         .run = Run };
+                                         .run = Run,
+                                         .asCase = &kAsCase };
 
 } // namespace voxelcore

@@ -10,12 +10,15 @@
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
+#include "voxelcore/Jobs/LabelGroups.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Labels/CropRange.h"
 #include "voxelcore/Lattice/GridOffset.h"
 #include "voxelcore/Models/AppendedVtp.h"
+#include "voxelcore/Report/Sha256.h"
 #include "voxelcore/Shape/BodyFrame.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
 #include <algorithm>
@@ -133,23 +136,57 @@ Paired(const TItems & a, const TItems & b, const TKey & keyOf, std::vector<std::
   return list;
 }
 
-/** The certified skeleton of a mask, as `voxelcore skeleton` makes it. */
-SkeletonPart
-SkeletonOfMask(LabelShape               label,
-               const ImageGeometry &    geometry,
-               const SkeletonOptions &  making,
-               const std::string &      name,
-               const ProgressCallback & progress)
+/** The certified skeletons of masks, as `voxelcore skeleton` makes them; an empty one of an empty mask. Two run side by
+ *  side, one thread each: threads of one of them would wait for each other. */
+std::vector<SkeletonPart>
+SkeletonsOfMasks(std::vector<LabelShape>  masks,
+                 const ImageGeometry &    geometry,
+                 const SkeletonOptions &  making,
+                 const std::string &      name,
+                 const ProgressCallback & progress)
 {
-  InputScan scan;
-  scan.geometry = geometry;
   CoreOptions core = CoreOptionsOf(making);
   core.scan = name;
-  std::vector<LabelShape> labels;
-  labels.push_back(std::move(label));
-  EditedLabels edited = EditLabels(std::move(labels), geometry, making.edits, true, name);
-  const auto   surface = MakeSurfaceSource(core.refine, core.scan, core.reading, scan);
-  return std::move(*ProcessLabel(std::move(edited.labels[0]), geometry, RequestOf(core, surface), progress).skeleton);
+  InputScan scan;
+  scan.geometry = geometry;
+  const auto                 surface = MakeSurfaceSource(core.refine, core.scan, core.reading, scan);
+  std::vector<std::uint64_t> vertices;
+  for (const LabelShape & mask : masks)
+  {
+    vertices.push_back(CountBoundaryVertices(mask.shape));
+  }
+  const LabelWork work = [&](std::size_t mask, const ProgressCallback & part) {
+    if (vertices[mask] == 0)
+    {
+      return LabelOutcome();
+    }
+    std::vector<LabelShape> labels;
+    labels.push_back(std::move(masks[mask]));
+    EditedLabels edited = EditLabels(std::move(labels), geometry, making.edits, true, name);
+    return ProcessLabel(std::move(edited.labels[0]), geometry, RequestOf(core, surface), part);
+  };
+  std::vector<SkeletonPart> parts(masks.size());
+  for (std::size_t first = 0; first < masks.size();)
+  {
+    const bool        isPair = first + 1 < masks.size() && vertices[first] + vertices[first + 1] <= kGroupVertices;
+    const std::size_t end = first + (isPair ? 2 : 1);
+    const auto share = [&](std::size_t mask) { return static_cast<double>(mask) / static_cast<double>(masks.size()); };
+    const auto part = PartOfProgress(progress, share(first), share(end));
+    if (isPair)
+    {
+      auto outcomes = ProcessSideBySide(first, end, vertices, work, part);
+      for (std::size_t mask = first; mask < end; ++mask)
+      {
+        parts[mask] = std::move(outcomes[mask - first].skeleton).value_or(SkeletonPart());
+      }
+    }
+    else
+    {
+      parts[first] = work(first, part).skeleton.value_or(SkeletonPart());
+    }
+    first = end;
+  }
+  return parts;
 }
 
 ComparedMasks
@@ -168,19 +205,13 @@ CompareLabel(const LabelShape &       a,
   if (options.lines)
   {
     compared.lines.emplace();
+    const auto parts =
+      SkeletonsOfMasks({ a, b }, geometry, options.making, "A and B", PartOfProgress(progress, "skeletons", 0.1, 0.9));
     for (const bool ofA : { true, false })
     {
-      const LabelShape & own = ofA ? a : b;
-      const LabelShape & other = ofA ? b : a;
-      SkeletonPart       part;
-      if ((ofA ? compared.overlap.a : compared.overlap.b) > 0)
-      {
-        part = SkeletonOfMask(own,
-                              geometry,
-                              options.making,
-                              ofA ? "A" : "B",
-                              PartOfProgress(progress, "skeletons", ofA ? 0.1 : 0.5, ofA ? 0.5 : 0.9));
-      }
+      const LabelShape &   own = ofA ? a : b;
+      const LabelShape &   other = ofA ? b : a;
+      const SkeletonPart & part = parts[ofA ? 0 : 1];
       compared.lines->push_back(MeasureCentreline(part.graph, geometry, own.shape, other.shape));
       const auto loops =
         FindLeavingLoops(part.graph, geometry, other.shape, ofA ? PartChange::Missed : PartChange::Invented);
@@ -262,10 +293,7 @@ TreesOf(CompareSide side, const CompareOptions & options, const ProgressCallback
   }
   SkeletonModel model;
   model.unit = map->geometry.unit;
-  for (LabelShape & label : map->labels)
-  {
-    model.parts.push_back(SkeletonOfMask(std::move(label), map->geometry, options.making, side.name, progress));
-  }
+  model.parts = SkeletonsOfMasks(std::move(map->labels), map->geometry, options.making, side.name, progress);
   return model;
 }
 
@@ -467,6 +495,18 @@ KindOf(const CompareSide & a, const CompareSide & b)
                                                    : "skeletons";
 }
 
+/** Arrays have no digest. */
+Json
+FileJson(const fs::path & path, const std::string & sha256)
+{
+  Json json = { { "path", path.string() } };
+  if (!sha256.empty())
+  {
+    json["sha256"] = sha256;
+  }
+  return json;
+}
+
 void
 Require(const std::optional<fs::path> & target, const char * option, const char * extension)
 {
@@ -602,6 +642,7 @@ RunCompareJob(const CompareOptions & options, const JobContext & given)
   }
   if (options.report)
   {
+    result.sha256 = { ScanSha256(options.a, options.making.reading), ScanSha256(options.b, options.making.reading) };
     WriteTextFile(transaction.Stage(*options.report), CompareJson(result, options));
   }
   Finish(transaction, context);
@@ -612,11 +653,19 @@ std::string
 CompareJson(const CompareResult & result, const CompareOptions & options)
 {
   Json json = { { "voxelcore", { { "version", VoxelCoreVersion() }, { "command", options.command } } },
-                { "a", { { "path", options.a.string() } } },
-                { "b", { { "path", options.b.string() } } },
+                { "a", FileJson(options.a, result.sha256[0]) },
+                { "b", FileJson(options.b, result.sha256[1]) },
                 { "kind", result.kind },
                 { "unit", UnitName(result.unit) },
-                { "notes", result.notes } };
+                { "notes", result.notes },
+                { "units", Json::object() } };
+  for (const TextColumn & column : result.tables.front().columns)
+  {
+    if (!column.unit.empty() && column.unit != "1")
+    {
+      json["units"][column.name] = column.unit;
+    }
+  }
   json.update(TablesAsJson(result.tables));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

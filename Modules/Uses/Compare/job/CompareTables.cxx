@@ -84,6 +84,7 @@ constexpr auto kTreeColumns = std::to_array<Column>({
   { "bifurcations_missed", "", "of A without a partner" },
   { "bifurcations_invented", "", "of B without a partner" },
   { "bifurcation_distance", "mm", "mean over those found" },
+  { "angle_error", "deg", "how much angles between branches differ, mean over bifurcations found" },
   { "axis_distance", "mm", "mean distance of the axes, of places of both that are found" },
   { "axis_distance_95", "mm", "95th percentile" },
   { "axis_distance_max", "mm", "greatest" },
@@ -100,6 +101,7 @@ constexpr auto kPlaceColumns = std::to_array<Column>({
   { "z", "mm", "" },
   { "radius", "mm", "there" },
   { "distance", "mm", "to its partner" },
+  { "angle_error", "deg", "of a bifurcation: how much angles between its branches differ, mean over every two" },
 });
 
 constexpr auto kBranchColumns = std::to_array<Column>({
@@ -211,16 +213,17 @@ constexpr std::array<PartChange, 4> kChanges{ PartChange::Missed,
                                               PartChange::Broken,
                                               PartChange::Joined };
 
+/** Over those where there is one. */
 double
-MeanDistance(const std::vector<PlaceMatch> & places)
+MeanOf(const std::vector<PlaceMatch> & places, double PlaceMatch::*number)
 {
   double      sum = 0;
   std::size_t count = 0;
   for (const PlaceMatch & place : places)
   {
-    if (place.inA && place.inB)
+    if (!std::isnan(place.*number))
     {
-      sum += place.distance;
+      sum += place.*number;
       ++count;
     }
   }
@@ -353,7 +356,7 @@ TablesOf(const std::vector<ComparedTrees> & labels, SpatialUnit unit)
       const auto count = [&](bool inA, bool inB) {
         return ranges::count_if(*list, [&](const PlaceMatch & p) { return p.inA == inA && p.inB == inB; });
       };
-      row << count(true, true) << count(true, false) << count(false, true) << MeanDistance(*list);
+      row << count(true, true) << count(true, false) << count(false, true) << MeanOf(*list, &PlaceMatch::distance);
       for (const PlaceMatch & match : *list)
       {
         Row place(one);
@@ -361,12 +364,12 @@ TablesOf(const std::vector<ComparedTrees> & labels, SpatialUnit unit)
               << (!match.inB   ? "missed"
                   : !match.inA ? "invented"
                                : "found")
-              << match.place << match.radius << match.distance;
+              << match.place << match.radius << match.distance << match.angleError;
         place.AddTo(places);
       }
     }
-    row << one.found.axis.mean << one.found.axis.percentile95 << one.found.axis.max << one.found.all.max
-        << one.found.radiusBias << one.found.radiusError;
+    row << MeanOf(one.found.bifurcations, &PlaceMatch::angleError) << one.found.axis.mean << one.found.axis.percentile95
+        << one.found.axis.max << one.found.all.max << one.found.radiusBias << one.found.radiusError;
     row.AddTo(all);
     for (const bool ofA : { true, false })
     {

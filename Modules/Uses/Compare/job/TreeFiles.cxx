@@ -162,6 +162,37 @@ ReadSwc(const std::filesystem::path & path)
   return model;
 }
 
+/** Why a tree is refused, without its file. */
+struct TreeRefused
+{
+  std::string what;
+};
+
+/** A pass over an XML file that holds a tree. */
+class TreeWalk : protected XmlWalk
+{
+public:
+  std::string wrong; ///< with the file; empty: nothing
+
+protected:
+  void
+  Take(std::string_view text)
+  {
+    try
+    {
+      wrong = Walk([&](char * to, std::size_t most) {
+        const std::size_t size = text.copy(to, most);
+        text.remove_prefix(size);
+        return size;
+      });
+    }
+    catch (const TreeRefused & refused)
+    {
+      wrong = refused.what;
+    }
+  }
+};
+
 // ---- RSML
 
 struct Root
@@ -172,36 +203,19 @@ struct Root
 };
 
 /** Reads the roots out of the tags. */
-class RsmlWalk : private XmlWalk
+class RsmlWalk : public TreeWalk
 {
 public:
   explicit RsmlWalk(std::string_view text)
   {
-    try
-    {
-      wrong = Walk([&](char * to, std::size_t most) {
-        const std::size_t size = text.copy(to, most);
-        text.remove_prefix(size);
-        return size;
-      });
-    }
-    catch (const Refused & refused)
-    {
-      wrong = refused.what;
-    }
+    Take(text);
   }
 
   std::vector<Root> roots;
   std::string       unit;
   std::string       resolution;
-  std::string       wrong;
 
 private:
-  struct Refused
-  {
-    std::string what;
-  };
-
   void
   Begin(const std::string & name, const XmlAttributes & attributes, const std::string & above) override
   {
@@ -227,7 +241,7 @@ private:
         const auto number = ParseReal(AttributeOf(attributes, k == 0 ? "x" : k == 1 ? "y" : "z", k == 2 ? "0" : ""));
         if (!number || !std::isfinite(*number))
         {
-          throw Refused{ "a point of a polyline has no x, y or z that is a number" };
+          throw TreeRefused{ "a point of a polyline has no x, y or z that is a number" };
         }
         place[k] = *number;
       }
@@ -249,7 +263,7 @@ private:
       const auto number = ParseReal(m_Value.value_or(m_Text));
       if (!number || !(*number >= 0) || !std::isfinite(*number))
       {
-        throw Refused{ "a diameter is no number from 0 on" };
+        throw TreeRefused{ "a diameter is no number from 0 on" };
       }
       roots[m_Open.back()].diameters.push_back(*number);
     }
@@ -340,18 +354,203 @@ ReadRsml(const std::filesystem::path & path)
   return model;
 }
 
+// ---- GraphML
+
+/** Points and edges, as the tags have them. */
+class GraphMlWalk : public TreeWalk
+{
+public:
+  explicit GraphMlWalk(std::string_view text)
+  {
+    Take(text);
+  }
+
+  Edges       edges;
+  std::string unit; ///< empty where it is not said
+
+private:
+  struct Link
+  {
+    std::string source;
+    std::string target;
+    std::string points;
+  };
+
+  void
+  Begin(const std::string & name, const XmlAttributes & attributes, const std::string & /*within*/) override
+  {
+    m_Text.clear();
+    if (name == "key")
+    {
+      m_NameOf[AttributeOf(attributes, "id")] = AttributeOf(attributes, "attr.name");
+    }
+    else if (name == "node")
+    {
+      if (edges.positions.size() >= kMostPoints ||
+          !m_PointOf.emplace(AttributeOf(attributes, "id"), static_cast<ElementIndex>(edges.positions.size())).second)
+      {
+        throw TreeRefused{ "two nodes have the id '" + AttributeOf(attributes, "id") + "'" };
+      }
+      edges.positions.push_back({ kUnset, kUnset, 0 });
+      edges.radius.push_back(0);
+    }
+    else if (name == "edge")
+    {
+      m_Links.push_back({ AttributeOf(attributes, "source"), AttributeOf(attributes, "target"), "" });
+    }
+    else if (name == "data")
+    {
+      const auto found = m_NameOf.find(AttributeOf(attributes, "key"));
+      m_Data = found == m_NameOf.end() ? std::string() : found->second;
+    }
+  }
+
+  void
+  End(const std::string & name, const std::string & within) override
+  {
+    if (name == "node" && !(edges.positions.back()[0] < kUnset && edges.positions.back()[1] < kUnset))
+    {
+      throw TreeRefused{ "a node has no data named x and y" };
+    }
+    if (name == "graphml")
+    {
+      ranges::for_each(m_Links, [&](const Link & link) { AddLink(link); });
+    }
+    if (name != "data")
+    {
+      return;
+    }
+    if (within == "graph" && m_Data == "unit")
+    {
+      unit = m_Text;
+    }
+    else if (within == "edge" && m_Data == "points")
+    {
+      m_Links.back().points = m_Text;
+    }
+    else if (within == "node")
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        if (m_Data == std::array{ "x", "y", "z" }[k])
+        {
+          edges.positions.back()[k] = Number(m_Text);
+        }
+      }
+      if (m_Data == "radius")
+      {
+        edges.radius.back() = Radius(m_Text);
+      }
+    }
+  }
+
+  void
+  Text(std::string_view text, const std::string & /*tag*/) override
+  {
+    m_Text.append(text);
+  }
+
+  static double
+  Number(const std::string & text)
+  {
+    const auto number = ParseReal(text);
+    if (!number || !(std::abs(*number) < kUnset))
+    {
+      throw TreeRefused{ "'" + text.substr(0, 40) + "' of a node or of points is no number" };
+    }
+    return *number;
+  }
+
+  static double
+  Radius(const std::string & text)
+  {
+    const double radius = Number(text);
+    if (radius < 0)
+    {
+      throw TreeRefused{ "a radius is below 0" };
+    }
+    return radius;
+  }
+
+  /** An edge's points, and the pieces between them. */
+  void
+  AddLink(const Link & link)
+  {
+    const auto from = m_PointOf.find(link.source);
+    const auto to = m_PointOf.find(link.target);
+    if (from == m_PointOf.end() || to == m_PointOf.end())
+    {
+      throw TreeRefused{ "an edge has an end that is no node's id: '" +
+                         (from == m_PointOf.end() ? link.source : link.target) + "'" };
+    }
+    ElementIndex             last = from->second;
+    std::istringstream       words(link.points);
+    std::vector<std::string> four(4);
+    while (words >> four[0])
+    {
+      if (!(words >> four[1] >> four[2] >> four[3]) || edges.positions.size() >= kMostPoints)
+      {
+        throw TreeRefused{ "points of an edge are not four numbers each: x y z radius" };
+      }
+      const auto next = static_cast<ElementIndex>(edges.positions.size());
+      edges.positions.push_back({ Number(four[0]), Number(four[1]), Number(four[2]) });
+      edges.radius.push_back(Radius(four[3]));
+      edges.edges.push_back({ last, next });
+      last = next;
+    }
+    if (last != to->second)
+    {
+      edges.edges.push_back({ last, to->second });
+    }
+  }
+
+  static constexpr double kUnset = 1e300;
+
+  std::map<std::string, std::string>  m_NameOf; ///< of data, by their keys
+  std::map<std::string, ElementIndex> m_PointOf;
+  std::vector<Link>                   m_Links;
+  std::string                         m_Data; ///< the open one's name
+  std::string                         m_Text;
+};
+
+SkeletonModel
+ReadGraphMl(const std::filesystem::path & path)
+{
+  GraphMlWalk walk(ReadText(path));
+  if (walk.wrong.empty() && walk.edges.positions.empty())
+  {
+    walk.wrong = "holds no node of a graph";
+  }
+  if (walk.wrong.empty() && !(walk.unit.empty() || walk.unit == UnitName(SpatialUnit::Millimetres) ||
+                              walk.unit == UnitName(SpatialUnit::Voxels)))
+  {
+    walk.wrong = "its unit is '" + walk.unit + "'; expected mm or voxels";
+  }
+  if (!walk.wrong.empty())
+  {
+    throw InputError(path.string() + ": " + walk.wrong + "; export it anew from the program that made it");
+  }
+  SkeletonModel model;
+  model.unit = walk.unit == UnitName(SpatialUnit::Voxels) ? SpatialUnit::Voxels : SpatialUnit::Millimetres;
+  model.parts.emplace_back();
+  model.parts[0].graph = GraphOfEdges(std::move(walk.edges));
+  return model;
+}
+
 } // namespace
 
 bool
 IsTreePath(const std::filesystem::path & path)
 {
-  return path.extension() == ".swc" || path.extension() == ".rsml";
+  return path.extension() == ".swc" || path.extension() == ".rsml" || path.extension() == ".graphml";
 }
 
 SkeletonModel
 ReadTreeFile(const std::filesystem::path & path)
 {
-  SkeletonModel model = path.extension() == ".swc" ? ReadSwc(path) : ReadRsml(path);
+  SkeletonModel model = path.extension() == ".swc"    ? ReadSwc(path)
+                        : path.extension() == ".rsml" ? ReadRsml(path)
+                                                      : ReadGraphMl(path);
   model.parts[0].label = 1;
   model.parts[0].name = path.stem().string();
   return model;

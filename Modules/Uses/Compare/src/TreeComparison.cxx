@@ -27,7 +27,8 @@ constexpr double kSteps = 4;        ///< places a radius
 constexpr double kFarthest = 1e15;  ///< mm; squares of more than 1e150 overflow
 constexpr double kMostPlaces = 1e6; ///< of a skeleton. Of a vessel tree of 30 m there are 0.3 million; a damaged file's
                                     ///< one far point would ask for all memory
-constexpr int kHalvings = 40;       ///< of a step: to its rounding
+constexpr double kLeave = 2;        ///< radii from a bifurcation on: outside the ball there, where branches are apart
+constexpr int    kHalvings = 40;    ///< of a step: to its rounding
 
 struct Place
 {
@@ -400,6 +401,84 @@ PointsOf(const SkeletonGraph & graph, bool tips)
   return points;
 }
 
+/** From a bifurcation to where its branches are `far` along, or to their other ends. */
+std::vector<Vector3>
+DirectionsFrom(const SkeletonGraph & graph, ElementIndex point, double far)
+{
+  std::vector<Vector3> directions;
+  const auto           add = [&](const auto & points) {
+    double along = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+    {
+      const Vector3 & one = graph.positions[points[i - 1]];
+      const Vector3   d = Minus(graph.positions[points[i]], one);
+      const double    length = Length(d);
+      if (along + length >= far || i + 1 == points.size())
+      {
+        const double  share = along + length > far ? (far - along) / length : 1;
+        const Vector3 way = Minus(AddScaled(one, share, d), graph.positions[point]);
+        if (Length(way) > 0)
+        {
+          directions.push_back(way);
+        }
+        return;
+      }
+      along += length;
+    }
+  };
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    const auto points = graph.Branch(branch);
+    if (points.front() == point)
+    {
+      add(points);
+    }
+    if (points.back() == point)
+    {
+      add(std::vector<ElementIndex>(points.rbegin(), points.rend()));
+    }
+  }
+  return directions;
+}
+
+/** PlaceMatch::angleError of directions of A and of B. */
+double
+AngleError(const std::vector<Vector3> & a, const std::vector<Vector3> & b)
+{
+  std::vector<std::array<double, 3>> pairs; // angle between the two, their numbers
+  for (std::size_t i = 0; i < a.size(); ++i)
+  {
+    for (std::size_t j = 0; j < b.size(); ++j)
+    {
+      pairs.push_back({ AngleDegrees(a[i], b[j]), static_cast<double>(i), static_cast<double>(j) });
+    }
+  }
+  ranges::sort(pairs);
+  std::vector<std::size_t> ofA;
+  std::vector<std::size_t> ofB;
+  for (const auto & pair : pairs)
+  {
+    const auto i = static_cast<std::size_t>(pair[1]);
+    const auto j = static_cast<std::size_t>(pair[2]);
+    if (ranges::count(ofA, i) + ranges::count(ofB, j) == 0)
+    {
+      ofA.push_back(i);
+      ofB.push_back(j);
+    }
+  }
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < ofA.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      sum += std::abs(AngleDegrees(a[ofA[i]], a[ofA[j]]) - AngleDegrees(b[ofB[i]], b[ofB[j]]));
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : kUnknown;
+}
+
 std::vector<PlaceMatch>
 MatchPlaces(const SkeletonGraph & a, const SkeletonGraph & b, bool tips, const Comparison & comparison)
 {
@@ -427,6 +506,7 @@ MatchPlaces(const SkeletonGraph & a, const SkeletonGraph & b, bool tips, const C
   }
   ranges::sort(pairs);
   std::vector<double>       partnerOf(pointsA.size(), kUnknown);
+  std::vector<double>       angles(pointsA.size(), kUnknown);
   std::vector<std::uint8_t> isTaken(pointsB.size(), 0);
   for (const Pair & pair : pairs)
   {
@@ -434,19 +514,26 @@ MatchPlaces(const SkeletonGraph & a, const SkeletonGraph & b, bool tips, const C
     {
       partnerOf[pair.a] = pair.distance;
       isTaken[pair.b] = 1;
+      const double far = kLeave * comparison.Tolerance(SectionRadii(a)[pointsA[pair.a]]);
+      angles[pair.a] =
+        tips ? kUnknown : AngleError(DirectionsFrom(a, pointsA[pair.a], far), DirectionsFrom(b, pointsB[pair.b], far));
     }
   }
   std::vector<PlaceMatch> places;
   for (std::size_t i = 0; i < pointsA.size(); ++i)
   {
-    places.push_back(
-      { a.positions[pointsA[i]], SectionRadii(a)[pointsA[i]], partnerOf[i], true, !std::isnan(partnerOf[i]) });
+    places.push_back({ a.positions[pointsA[i]],
+                       SectionRadii(a)[pointsA[i]],
+                       partnerOf[i],
+                       angles[i],
+                       true,
+                       !std::isnan(partnerOf[i]) });
   }
   for (std::size_t j = 0; j < pointsB.size(); ++j)
   {
     if (isTaken[j] == 0)
     {
-      places.push_back({ b.positions[pointsB[j]], SectionRadii(b)[pointsB[j]], kUnknown, false, true });
+      places.push_back({ b.positions[pointsB[j]], SectionRadii(b)[pointsB[j]], kUnknown, kUnknown, false, true });
     }
   }
   return places;

@@ -76,7 +76,8 @@ WriteSwc(const std::filesystem::path &     path,
 void
 WriteMarkups(const std::filesystem::path & path, const SkeletonModel & model);
 
-/** GraphML: nodes with place, radius and kind, edges with the numbers of their branches. \throws OutputError */
+/** GraphML: nodes with place, radius and kind, edges with the numbers of their branches, and in "points" x y z radius
+ *  of each point between the ends, from the source on. The graph's "unit" is that of lengths. \throws OutputError */
 void
 WriteGraphMl(const std::filesystem::path & path, const SkeletonModel & model);
 

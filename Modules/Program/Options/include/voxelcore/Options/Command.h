@@ -81,6 +81,7 @@ struct AsCase
   std::string_view description = {};        ///< of that flag
   bool             drawsUnlessTold = false; ///< has a page unless --no-pictures; the others have --html
   bool             hasBids = true;          ///< its files have names in BIDS
+  std::string_view beside = {};             ///< row of a second file; a manifest's column names it, case by case
 };
 
 /** Whether the same command line goes on from where it was stopped. */

@@ -24,9 +24,9 @@ struct CohortCase
   ParameterValues values; ///< options of its command that hold for this case alone
 };
 
-/** Whether the value of an option is the path of a mask, which is read beside the scan. */
+/** Whether the value of an option is the path of a file that is read beside the scan. */
 bool
-NamesMask(std::string_view option, const std::string & value);
+NamesFileOf(const Parameter & option, const std::string & value);
 
 /** The folder of a case: "sub-" and the id, which keeps its letters, digits, "-" and "_". An id with other characters,
  *  or more than 64, loses these ("/" becomes "_") and gets "x" and eight digits of its SHA-256, so that different ids
@@ -40,8 +40,8 @@ CaseThatIsThereTwice(const std::vector<CohortCase> & cases);
 
 /** A manifest: CSV (or .tsv) whose first row names the columns `id` (or `participant_id`), `scan`, and any of `options`
  *  (OptionsOfCases) without its dashes; `note` is passed over. An empty field means the option is not given; flags take
- *  yes/no, true/false or 1/0. Relative paths, of scans and of masks (`within`), are looked for from the manifest's
- *  folder. Whether a scan exists, and whether a value has sense, shows when its case runs.
+ *  yes/no, true/false or 1/0. Relative paths, of scans and of files beside them (`within`, `b`), are looked for from
+ *  the manifest's folder. Whether a scan exists, and whether a value has sense, shows when its case runs.
  *  \throws InputError naming file and line: a column missing, unknown or doubled, an id or scan empty or an id doubled,
  *  a row of another length, what ParseCsv refuses, no row at all. */
 std::vector<CohortCase>

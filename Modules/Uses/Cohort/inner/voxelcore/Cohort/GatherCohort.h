@@ -21,6 +21,7 @@ struct CohortSummary
  *    values stand in one column;
  *  - labels.csv: a row per case and label with every number of the report's label (of `cuts` only how many there are),
  *    and `outliers`: FindOutliers();
+ *  - means.csv, of comparisons: a row per label and measure, MeansOfComparisons();
  *  - dataset_description.json, of BIDS derivatives;
  *  - columns.json: what the columns mean;
  *  - bids/, if asked for: the results under the names of BIDS derivatives;

@@ -19,7 +19,7 @@ namespace voxelcore
 
 struct CompareOptions
 {
-  std::filesystem::path                a; ///< a scan, a .vtp of `skeleton` or `core`, .swc or .rsml
+  std::filesystem::path                a; ///< a scan, a .vtp of `skeleton` or `core`, .swc .rsml .graphml
   std::filesystem::path                b;
   SkeletonOptions                      making;       ///< how scans are read, and how their skeletons are made
   bool                                 lines = true; ///< of masks, too, what needs their skeletons
@@ -46,6 +46,8 @@ struct CompareResult
   std::vector<CompareTable> tables;
   std::vector<std::string>  warnings;
   std::vector<std::string>  notes;
+
+  std::array<std::string, 2> sha256; ///< of A's and B's files, where a report of them is written
 
   SkeletonModel treesA; ///< the skeletons that were compared, by the rows of "labels"
   SkeletonModel treesB;

@@ -40,8 +40,12 @@ struct PlaceMatch
   Vector3 place{};      ///< in A; of one that only B has, in B
   double  radius = 0;   ///< there
   double  distance = 0; ///< to its partner, mm; NaN without one
-  bool    inA = true;
-  bool    inB = true;
+  /** Of a bifurcation, degrees: how much the angle between two of its branches differs from their partners', mean
+   *  over every two. A branch's direction is that from the bifurcation to two tolerances along it; the nearest
+   *  directions are partners, then the nearest of those left. NaN without two partners. */
+  double angleError = 0;
+  bool   inA = true;
+  bool   inB = true;
 };
 
 /** Distances in mm; NaN where there is nothing to measure. */

@@ -1,5 +1,5 @@
 #pragma once
-// Trees of other programs: SWC and RSML, read.
+// Trees of other programs: SWC, RSML and GraphML, read.
 
 #include "voxelcore/Models/SkeletonModel.h"
 
@@ -10,7 +10,7 @@
 namespace voxelcore
 {
 
-/** Whether a path names a tree: .swc or .rsml. */
+/** Whether a path names a tree: .swc, .rsml or .graphml. */
 bool
 IsTreePath(const std::filesystem::path & path);
 
@@ -20,7 +20,10 @@ IsTreePath(const std::filesystem::path & path);
  *
  *  RSML: polylines of roots, in the unit of `<unit>` (mm, cm, m, um or pixel) with `<resolution>` 1, and radii of half
  *  the function "diameter", where there is one. A lateral hangs on that point of its parent that is nearest to its
- *  first; where they are apart, a straight line joins them. \throws InputError */
+ *  first; where they are apart, a straight line joins them.
+ *
+ *  GraphML: nodes with x, y and, where there is one, z and radius; edges are straight, or pass through "points" as
+ *  WriteGraphMl says. In mm unless the graph's "unit" is voxels. \throws InputError */
 SkeletonModel
 ReadTreeFile(const std::filesystem::path & path);
 
