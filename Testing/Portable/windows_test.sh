@@ -32,6 +32,21 @@ cp "$data/gyroid.nrrd" "$long/$long/$long.nrrd"
 try "$long\\$long\\$long.nrrd" "$long\\$long\\out-$long.vtp" "$long/$long/out-$long.vtp"
 windows info 'Pätient 1 😀\Schädel ß 日本.nrrd' | grep -q 'Schädel ß 日本' || fail "info does not name the file"
 
+# A batch has a process for each case, and the files of the native one.
+mkdir 'scans ü'
+cp "$data/gyroid.nrrd" 'scans ü/one.nrrd'
+cp "$data/gyroid.nrrd" 'scans ü/two 2.nrrd'
+echo no >'scans ü/bad.nrrd'
+code=0
+windows batch 'scans ü' -o 'batch ß' --memory 4GB -q </dev/null >batch.txt 2>&1 || code=$?
+[ "$code" = 1 ] || fail "batch gave exit code $code: $(cat batch.txt)"
+"$program" batch 'scans ü' -o expected -q >/dev/null 2>&1 || true
+for file in sub-one/sub-one_medial.vtp sub-one/sub-one_skeleton.vtp; do
+  cmp "expected/$file" "batch ß/$file" || fail "$file of a batch: the bits are others"
+done
+[ "$(cut -d, -f1,3 'batch ß/cases.csv')" = "$(cut -d, -f1,3 expected/cases.csv)" ] || fail "cases: $(cat 'batch ß/cases.csv')"
+windows batch 'scans ü' -o 'batch ß' </dev/null 2>/dev/null | grep -q '2 of them before' || fail "a batch begins anew"
+
 # A run that lasts, until its temporary files are there.
 windows phantom gyroid --size 256 -o large.nrrd -q </dev/null
 mkdir stopped

@@ -24,7 +24,7 @@ RemoveRegularFile(const std::filesystem::path & path)
 }
 
 std::FILE *
-OpenForWriting(const std::filesystem::path & path)
+OpenForWriting(const std::filesystem::path & path, bool readsToo)
 {
   std::error_code ignored;
   const auto      status = std::filesystem::status(path, ignored);
@@ -35,7 +35,7 @@ OpenForWriting(const std::filesystem::path & path)
   }
   errno = 0;
   // Others can guess a temporary name, and in a folder they may write to put a link there: it must be new.
-  std::FILE * const file = OpenToWrite(path, WriterOf(path).has_value());
+  std::FILE * const file = OpenToWrite(path, WriterOf(path).has_value(), readsToo);
   if (!file)
   {
     FailOutput(path, errno);
@@ -83,9 +83,9 @@ FailOutput(const std::filesystem::path & path, int errorNumber)
   throw OutputError(message);
 }
 
-OutputFile::OutputFile(const std::filesystem::path & path)
+OutputFile::OutputFile(const std::filesystem::path & path, bool readsToo)
   : m_Path(path)
-  , m_File(OpenForWriting(path))
+  , m_File(OpenForWriting(path, readsToo))
 {
   (void)std::setvbuf(m_File, nullptr, _IOFBF, std::size_t{ 1 } << 20);
 }
@@ -117,6 +117,17 @@ OutputFile::Write(const void * data, std::size_t bytes)
   {
     Fail(errno);
   }
+}
+
+std::size_t
+OutputFile::Read(void * data, std::size_t bytes)
+{
+  const std::size_t count = std::fread(data, 1, bytes, m_File);
+  if (count != bytes && std::ferror(m_File) != 0)
+  {
+    Fail(errno);
+  }
+  return count;
 }
 
 std::uint64_t

@@ -4,9 +4,9 @@ namespace voxelcore
 {
 
 std::FILE *
-OpenToWrite(const std::filesystem::path & path, bool isNew)
+OpenToWrite(const std::filesystem::path & path, bool isNew, bool readsToo)
 {
-  return std::fopen(path.c_str(), isNew ? "wbx" : "wb");
+  return std::fopen(path.c_str(), readsToo ? isNew ? "w+bx" : "w+b" : isNew ? "wbx" : "wb");
 }
 
 } // namespace voxelcore

@@ -116,10 +116,10 @@ RemoveNow(const wchar_t * path, bool withContents)
 }
 
 std::FILE *
-OpenToWrite(const fs::path & path, bool isNew)
+OpenToWrite(const fs::path & path, bool isNew, bool readsToo)
 {
   WindowsHandle handle(CreateFileW(path.c_str(),
-                                   GENERIC_WRITE,
+                                   GENERIC_WRITE | (readsToo ? GENERIC_READ : 0),
                                    kSharedByAll,
                                    nullptr,
                                    isNew ? CREATE_NEW : CREATE_ALWAYS,
@@ -136,7 +136,7 @@ OpenToWrite(const fs::path & path, bool isNew)
     return nullptr;
   }
   handle.Release();
-  std::FILE * const file = _fdopen(descriptor, "wb");
+  std::FILE * const file = _fdopen(descriptor, readsToo ? "w+b" : "wb");
   if (file == nullptr)
   {
     _close(descriptor);

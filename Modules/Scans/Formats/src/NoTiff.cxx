@@ -1,8 +1,10 @@
-// In the place of what reads TIFF, where VoxelCore is built without libtiff (VOXELCORE_TIFF).
+// In the place of what reads and writes TIFF, where VoxelCore is built without libtiff (VOXELCORE_TIFF).
 
 #include "TiffFile.h"
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Formats/FormatOpeners.h"
+#include "voxelcore/Formats/VolumeWriters.h"
 
 namespace voxelcore
 {
@@ -24,6 +26,12 @@ OpenTiff(const std::filesystem::path & path, const ReadOptions & options)
 {
   InspectTiff(path, options);
   return {};
+}
+
+void
+WriteTiff(const std::filesystem::path & path, const VolumeToWrite &)
+{
+  throw OutputError(path.string() + ": this VoxelCore is built without TIFF; write .nrrd or .nii");
 }
 
 } // namespace voxelcore

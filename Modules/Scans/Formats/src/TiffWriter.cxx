@@ -2,18 +2,18 @@
 
 #include "TiffDescription.h"
 #include "voxelcore/Base/OutputFile.h"
-#include "voxelcore/Base/TemporaryNames.h"
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Formats/VolumeWriters.h"
 
 #include <tiffio.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdarg>
-#include <fcntl.h>
+#include <cstdio>
+#include <exception>
 #include <memory>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <string>
+#include <vector>
 
 namespace voxelcore
 {
@@ -26,98 +26,95 @@ Silent(TIFF *, void *, const char *, const char *, va_list)
   return 1;
 }
 
-/** A file for libtiff, which loses the reason when one cannot be written. */
+/** A file for libtiff, which loses the reason when one cannot be written, and through which nothing may be thrown. */
 class TiffOutput
 {
 public:
   explicit TiffOutput(const std::filesystem::path & path)
-    : m_Path(path)
-    , m_Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | (WriterOf(path) ? O_EXCL : 0), 0666))
-  {
-    if (m_Descriptor < 0)
-    {
-      FailOutput(path, errno);
-    }
-  }
-  TiffOutput(const TiffOutput &) = delete;
-  TiffOutput &
-  operator=(const TiffOutput &) = delete;
-  ~TiffOutput()
-  {
-    if (m_Descriptor >= 0)
-    {
-      close(m_Descriptor);
-    }
-  }
+    : m_Name(path.string())
+    , m_File(path, true)
+  {}
 
   TIFF *
   Open(const char * mode, TIFFOpenOptions * options)
   {
-    return TIFFClientOpenExt(m_Path.c_str(), mode, this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
+    return TIFFClientOpenExt(m_Name.c_str(), mode, this, Read, Write, Seek, Close, Size, nullptr, nullptr, options);
   }
 
   /** Throws what went wrong first, if anything did. */
   void
+  Rethrow() const
+  {
+    if (m_Failure)
+    {
+      std::rethrow_exception(m_Failure);
+    }
+  }
+  void
   Finish()
   {
-    const int descriptor = m_Descriptor;
-    m_Descriptor = -1;
-    if (close(descriptor) != 0 && m_Error == 0)
-    {
-      m_Error = errno;
-    }
-    if (m_Error != 0)
-    {
-      FailOutput(m_Path, m_Error);
-    }
+    Rethrow();
+    m_File.Finish();
   }
 
 private:
-  static TiffOutput &
-  Self(thandle_t handle)
+  /** What `work` does; -1 once something has failed. */
+  template <typename TWork>
+  static tmsize_t
+  Guarded(thandle_t handle, const TWork & work)
   {
-    return *static_cast<TiffOutput *>(handle);
-  }
-  template <typename Result>
-  Result
-  Noted(Result result)
-  {
-    if (result < 0 && m_Error == 0)
+    auto & self = *static_cast<TiffOutput *>(handle);
+    if (!self.m_Failure)
     {
-      m_Error = errno;
+      try
+      {
+        return static_cast<tmsize_t>(work(self));
+      }
+      catch (...)
+      {
+        self.m_Failure = std::current_exception();
+      }
     }
-    return result;
+    return -1;
   }
+
   static tmsize_t
   Read(thandle_t handle, void * bytes, tmsize_t count)
   {
-    return Self(handle).Noted(read(Self(handle).m_Descriptor, bytes, static_cast<std::size_t>(count)));
+    return Guarded(handle, [&](TiffOutput & self) {
+      self.m_File.MoveTo(self.m_Place);
+      const std::size_t got = self.m_File.Read(bytes, static_cast<std::size_t>(count));
+      self.m_Place += got;
+      self.m_IsBehindLast = false;
+      return got;
+    });
   }
   static tmsize_t
   Write(thandle_t handle, void * bytes, tmsize_t count)
   {
-    tmsize_t done = 0;
-    while (done < count)
-    {
-      const ssize_t now = write(Self(handle).m_Descriptor,
-                                static_cast<const char *>(bytes) + done,
-                                static_cast<std::size_t>(count - done));
-      if (now < 0 && errno == EINTR)
+    return Guarded(handle, [&](TiffOutput & self) {
+      if (!self.m_IsBehindLast)
       {
-        continue;
+        self.m_File.MoveTo(self.m_Place);
       }
-      if (Self(handle).Noted(now) <= 0)
-      {
-        return -1;
-      }
-      done += now;
-    }
-    return done;
+      self.m_File.Write(bytes, static_cast<std::size_t>(count));
+      self.m_IsBehindLast = true;
+      self.m_Place += static_cast<std::uint64_t>(count);
+      self.m_Size = std::max(self.m_Size, self.m_Place);
+      return count;
+    });
   }
   static toff_t
   Seek(thandle_t handle, toff_t offset, int from)
   {
-    return static_cast<toff_t>(Self(handle).Noted(lseek(Self(handle).m_Descriptor, static_cast<off_t>(offset), from)));
+    return static_cast<toff_t>(Guarded(handle, [&](TiffOutput & self) {
+      const std::uint64_t place = offset + (from == SEEK_CUR   ? self.m_Place
+                                            : from == SEEK_END ? self.m_Size
+                                                               : std::uint64_t{ 0 });
+      self.m_IsBehindLast = self.m_IsBehindLast && place == self.m_Place;
+      self.m_Place = place;
+      return place;
+    }));
   }
   static int
   Close(thandle_t)
@@ -127,14 +124,15 @@ private:
   static toff_t
   Size(thandle_t handle)
   {
-    struct stat status = {};
-    return Self(handle).Noted(fstat(Self(handle).m_Descriptor, &status)) == 0 ? static_cast<toff_t>(status.st_size)
-                                                                              : toff_t{ 0 };
+    return static_cast<TiffOutput *>(handle)->m_Size;
   }
 
-  std::filesystem::path m_Path;
-  int                   m_Descriptor;
-  int                   m_Error = 0;
+  std::string        m_Name;
+  OutputFile         m_File;
+  std::uint64_t      m_Place = 0;
+  std::uint64_t      m_Size = 0;
+  bool               m_IsBehindLast = true; ///< of what was written, as the file's own place is
+  std::exception_ptr m_Failure;
 };
 
 } // namespace
@@ -146,7 +144,7 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
   const PixelType type = volume.type;
   TiffOutput      output(path);
   const auto      fail = [&]() {
-    output.Finish(); // says why, where the system does
+    output.Rethrow(); // says why, where the system does
     throw Error("libtiff could not write all of it");
   };
   const auto        rowBytes = static_cast<std::size_t>(size[0]) * PixelBytes(type);

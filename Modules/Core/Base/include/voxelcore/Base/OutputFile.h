@@ -20,7 +20,7 @@ FailOutput(const std::filesystem::path & path, int errorNumber);
 class OutputFile
 {
 public:
-  explicit OutputFile(const std::filesystem::path & path);
+  explicit OutputFile(const std::filesystem::path & path, bool readsToo = false);
   OutputFile(const OutputFile &) = delete;
   OutputFile &
   operator=(const OutputFile &) = delete;
@@ -34,6 +34,9 @@ public:
   {
     Write(text.data(), text.size());
   }
+  /** Of a file that `readsToo`, after MoveTo(): as many bytes as there are. Before the next Write() comes MoveTo(). */
+  std::size_t
+  Read(void * data, std::size_t bytes);
   /** Where the next byte goes, from the beginning. */
   std::uint64_t
   Place() const;

@@ -57,10 +57,10 @@ AvailableMemoryMb();
 void
 RemoveNow(const std::filesystem::path::value_type * path, bool withContents);
 
-/** An empty file to write to, which `isNew` must not be there yet; null, and the reason in errno. Others may give it
- *  another name or remove it while it is open. */
+/** An empty file to write to, `readsToo` also to read from, which `isNew` must not be there yet; null, and the reason in
+ *  errno. Others may give it another name or remove it while it is open. */
 std::FILE *
-OpenToWrite(const std::filesystem::path & path, bool isNew);
+OpenToWrite(const std::filesystem::path & path, bool isNew, bool readsToo);
 
 /** Gives memory of an array back to the system, as far as it fills large pages. Until it is written again it holds
  *  anything. Returns how many bytes from its beginning on are done with: the next piece begins there. The portable half
