@@ -57,8 +57,8 @@ AvailableMemoryMb();
 void
 RemoveNow(const std::filesystem::path::value_type * path, bool withContents);
 
-/** An empty file to write to, `readsToo` also to read from, which `isNew` must not be there yet; null, and the reason in
- *  errno. Others may give it another name or remove it while it is open. */
+/** An empty file to write to, and with `readsToo` to read from, which `isNew` must not be there yet; null, and the
+ *  reason in errno. Others may give it another name or remove it while it is open. */
 std::FILE *
 OpenToWrite(const std::filesystem::path & path, bool isNew, bool readsToo);
 
