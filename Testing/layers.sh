@@ -60,6 +60,7 @@ Jobs Vessels        | core and skeleton write sections, branches, centerlines an
 Jobs Blocks         | core makes blocks and joins them; core --join takes their cells in place of its own
 Jobs Meshes         | a mesh may stand wherever a scan may
 Phantom Roots       | the truth of a phantom with roots is written as Roots writes its tables
+Follow Roots        | a day of a series is written as RSML as Roots writes it
 END
 )
 

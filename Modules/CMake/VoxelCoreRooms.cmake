@@ -10,7 +10,7 @@ set(VOXELCORE_ROOMS_Models
 set(VOXELCORE_ROOMS_Program
   Report Jobs Options)
 set(VOXELCORE_ROOMS_Uses
-  Blocks Meshes Phantom Thickness Sheets Vessels Roots Compare Corrections Cohort)
+  Blocks Meshes Phantom Thickness Sheets Vessels Roots Compare Corrections Follow Cohort)
 
 set(VOXELCORE_ROOMS "")
 foreach(group ${VOXELCORE_GROUPS})

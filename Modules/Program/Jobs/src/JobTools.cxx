@@ -1,9 +1,12 @@
 #include "voxelcore/Jobs/JobTools.h"
 
 #include "voxelcore/Base/Error.h"
+#include "voxelcore/Jobs/SystemFiles.h"
 #include "voxelcore/Lattice/GridOffset.h"
 #include "voxelcore/Lattice/SpacingWeights.h"
 
+#include <chrono>
+#include <cstdio>
 #include <set>
 
 namespace voxelcore
@@ -133,6 +136,37 @@ WarnOfRounding(const std::filesystem::path & path, const std::string & rounded, 
     warnings.push_back(path.string() + ": " + rounded +
                        ", as another program saved it; results are of these rounded numbers");
   }
+}
+
+std::string
+ModificationTime(const std::filesystem::path & path)
+{
+  const std::chrono::sys_seconds    time{ std::chrono::seconds(LastChanged(path)) };
+  const auto                        day = std::chrono::floor<std::chrono::days>(time);
+  const std::chrono::year_month_day date(day);
+  const std::chrono::hh_mm_ss       clock(time - day);
+  char                              text[64];
+  (void)std::snprintf(text,
+                      sizeof(text),
+                      "%04d-%02u-%02uT%02d:%02d:%02d",
+                      static_cast<int>(date.year()),
+                      static_cast<unsigned>(date.month()),
+                      static_cast<unsigned>(date.day()),
+                      static_cast<int>(clock.hours().count()),
+                      static_cast<int>(clock.minutes().count()),
+                      static_cast<int>(clock.seconds().count()));
+  return text;
+}
+
+double
+PlainLength(const Lambda & length, SpatialUnit unit, const std::string & option)
+{
+  RequireLengthIn(unit, length);
+  if (length.unit == Lambda::Unit::Percent || (length.unit == Lambda::Unit::Voxel && unit == SpatialUnit::Millimetres))
+  {
+    throw UsageError(option + " " + length.text + ": expected a length in mm, such as 0.5mm");
+  }
+  return length.value;
 }
 
 } // namespace voxelcore

@@ -7,8 +7,10 @@
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
+#include "voxelcore/Jobs/LabelGroups.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/SkeletonFiles.h"
+#include "voxelcore/Shape/BoundaryVertices.h"
 
 #include <algorithm>
 #include <utility>
@@ -241,6 +243,57 @@ RunMeasureJob(const MeasureJobOptions & options, const JobContext & given)
   files.Finish(report, result.notes);
   Finish(transaction, context);
   return result;
+}
+
+std::vector<SkeletonPart>
+SkeletonsOfMasks(std::vector<LabelShape>  masks,
+                 const ImageGeometry &    geometry,
+                 const SkeletonOptions &  making,
+                 const std::string &      name,
+                 const ProgressCallback & progress)
+{
+  CoreOptions core = CoreOptionsOf(making);
+  core.scan = name;
+  InputScan scan;
+  scan.geometry = geometry;
+  const auto                 surface = MakeSurfaceSource(core.refine, core.scan, core.reading, scan);
+  std::vector<std::uint64_t> vertices;
+  for (const LabelShape & mask : masks)
+  {
+    vertices.push_back(CountBoundaryVertices(mask.shape));
+  }
+  const LabelWork work = [&](std::size_t mask, const ProgressCallback & part) {
+    if (vertices[mask] == 0)
+    {
+      return LabelOutcome();
+    }
+    std::vector<LabelShape> labels;
+    labels.push_back(std::move(masks[mask]));
+    EditedLabels edited = EditLabels(std::move(labels), geometry, making.edits, true, name);
+    return ProcessLabel(std::move(edited.labels[0]), geometry, RequestOf(core, surface), part);
+  };
+  std::vector<SkeletonPart> parts(masks.size());
+  for (std::size_t first = 0; first < masks.size();)
+  {
+    const bool        isPair = first + 1 < masks.size() && vertices[first] + vertices[first + 1] <= kGroupVertices;
+    const std::size_t end = first + (isPair ? 2 : 1);
+    const auto share = [&](std::size_t mask) { return static_cast<double>(mask) / static_cast<double>(masks.size()); };
+    const auto part = PartOfProgress(progress, share(first), share(end));
+    if (isPair)
+    {
+      auto outcomes = ProcessSideBySide(first, end, vertices, work, part);
+      for (std::size_t mask = first; mask < end; ++mask)
+      {
+        parts[mask] = std::move(outcomes[mask - first].skeleton).value_or(SkeletonPart());
+      }
+    }
+    else
+    {
+      parts[first] = work(first, part).skeleton.value_or(SkeletonPart());
+    }
+    first = end;
+  }
+  return parts;
 }
 
 } // namespace voxelcore

@@ -6,19 +6,17 @@
 #include "voxelcore/Base/Library.h"
 #include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Base/Text.h"
-#include "voxelcore/Compare/TreeFiles.h"
 #include "voxelcore/Jobs/CoreJobSteps.h"
 #include "voxelcore/Jobs/DisplayFiles.h"
 #include "voxelcore/Jobs/JobTools.h"
-#include "voxelcore/Jobs/LabelGroups.h"
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Labels/CropRange.h"
 #include "voxelcore/Lattice/GridOffset.h"
 #include "voxelcore/Models/AppendedVtp.h"
+#include "voxelcore/Models/TreeFiles.h"
 #include "voxelcore/Report/Sha256.h"
 #include "voxelcore/Shape/BodyFrame.h"
-#include "voxelcore/Shape/BoundaryVertices.h"
 #include "voxelcore/Shape/ShapeOperations.h"
 
 #include <algorithm>
@@ -136,59 +134,6 @@ Paired(const TItems & a, const TItems & b, const TKey & keyOf, std::vector<std::
   return list;
 }
 
-/** The certified skeletons of masks, as `voxelcore skeleton` makes them; an empty one of an empty mask. Two run side by
- *  side, one thread each: threads of one of them would wait for each other. */
-std::vector<SkeletonPart>
-SkeletonsOfMasks(std::vector<LabelShape>  masks,
-                 const ImageGeometry &    geometry,
-                 const SkeletonOptions &  making,
-                 const std::string &      name,
-                 const ProgressCallback & progress)
-{
-  CoreOptions core = CoreOptionsOf(making);
-  core.scan = name;
-  InputScan scan;
-  scan.geometry = geometry;
-  const auto                 surface = MakeSurfaceSource(core.refine, core.scan, core.reading, scan);
-  std::vector<std::uint64_t> vertices;
-  for (const LabelShape & mask : masks)
-  {
-    vertices.push_back(CountBoundaryVertices(mask.shape));
-  }
-  const LabelWork work = [&](std::size_t mask, const ProgressCallback & part) {
-    if (vertices[mask] == 0)
-    {
-      return LabelOutcome();
-    }
-    std::vector<LabelShape> labels;
-    labels.push_back(std::move(masks[mask]));
-    EditedLabels edited = EditLabels(std::move(labels), geometry, making.edits, true, name);
-    return ProcessLabel(std::move(edited.labels[0]), geometry, RequestOf(core, surface), part);
-  };
-  std::vector<SkeletonPart> parts(masks.size());
-  for (std::size_t first = 0; first < masks.size();)
-  {
-    const bool        isPair = first + 1 < masks.size() && vertices[first] + vertices[first + 1] <= kGroupVertices;
-    const std::size_t end = first + (isPair ? 2 : 1);
-    const auto share = [&](std::size_t mask) { return static_cast<double>(mask) / static_cast<double>(masks.size()); };
-    const auto part = PartOfProgress(progress, share(first), share(end));
-    if (isPair)
-    {
-      auto outcomes = ProcessSideBySide(first, end, vertices, work, part);
-      for (std::size_t mask = first; mask < end; ++mask)
-      {
-        parts[mask] = std::move(outcomes[mask - first].skeleton).value_or(SkeletonPart());
-      }
-    }
-    else
-    {
-      parts[first] = work(first, part).skeleton.value_or(SkeletonPart());
-    }
-    first = end;
-  }
-  return parts;
-}
-
 ComparedMasks
 CompareLabel(const LabelShape &       a,
              const LabelShape &       b,
@@ -264,17 +209,7 @@ CompareMasks(CompareSide              a,
 double
 NearOf(const CompareOptions & options, SpatialUnit unit)
 {
-  if (!options.near)
-  {
-    return 0;
-  }
-  RequireLengthIn(unit, *options.near);
-  if (options.near->unit == Lambda::Unit::Percent ||
-      (options.near->unit == Lambda::Unit::Voxel && unit == SpatialUnit::Millimetres))
-  {
-    throw UsageError("--near " + options.near->text + ": expected a length in mm, such as 0.5mm");
-  }
-  return options.near->value;
+  return options.near ? PlainLength(*options.near, unit, "--near") : 0;
 }
 
 SkeletonModel

@@ -13,10 +13,8 @@
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Jobs/OutputNames.h"
-#include "voxelcore/Jobs/SystemFiles.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -71,27 +69,6 @@ CoreOptionsOf(const RootsOptions & options)
   core.force = options.force;
   core.command = options.command;
   return core;
-}
-
-/** yyyy-mm-ddThh:mm:ss, UTC: when a file was changed last. */
-std::string
-ModificationTime(const fs::path & path)
-{
-  const std::chrono::sys_seconds    time{ std::chrono::seconds(LastChanged(path)) };
-  const auto                        day = std::chrono::floor<std::chrono::days>(time);
-  const std::chrono::year_month_day date(day);
-  const std::chrono::hh_mm_ss       clock(time - day);
-  char                              text[64];
-  (void)std::snprintf(text,
-                      sizeof(text),
-                      "%04d-%02u-%02uT%02d:%02d:%02d",
-                      static_cast<int>(date.year()),
-                      static_cast<unsigned>(date.month()),
-                      static_cast<unsigned>(date.day()),
-                      static_cast<int>(clock.hours().count()),
-                      static_cast<int>(clock.minutes().count()),
-                      static_cast<int>(clock.seconds().count()));
-  return text;
 }
 
 /** What a user should look at. */

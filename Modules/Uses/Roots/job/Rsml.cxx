@@ -6,6 +6,7 @@
 #include "voxelcore/Roots/RootFiles.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace voxelcore
 {
@@ -30,12 +31,17 @@ constexpr std::array<Definition, 6> kProperties{ { { "level", "integer", "" },
 class RsmlWriter
 {
 public:
-  RsmlWriter(const std::filesystem::path & path, const RootModel & model)
+  RsmlWriter(const std::filesystem::path & path, const RootModel & model, const RsmlOptions & options)
     : m_File(path, 10)
     , m_Model(model)
     , m_Radii(SectionRadii(model.graph))
     , m_Children(model.roots.axes.size())
+    , m_Ids(options.sequence ? options.sequence->ids : std::vector<std::int64_t>(model.roots.axes.size()))
   {
+    if (!options.sequence)
+    {
+      std::iota(m_Ids.begin(), m_Ids.end(), 0);
+    }
     for (ElementIndex axis = 0; axis < model.roots.axes.size(); ++axis)
     {
       if (model.roots.axes[axis].parent != kNoRoot)
@@ -60,7 +66,13 @@ public:
     {
       m_File << "      <sha256>" << options.sha256 << "</sha256>\n";
     }
-    m_File << "    </image>\n    <property-definitions>\n";
+    m_File << "    </image>\n";
+    if (options.sequence)
+    {
+      m_File << "    <time-sequence>\n      <label>" << XmlText(options.sequence->label) << "</label>\n      <index>"
+             << options.sequence->index << "</index>\n      <unified>true</unified>\n    </time-sequence>\n";
+    }
+    m_File << "    <property-definitions>\n";
     for (const Definition & property : kProperties)
     {
       Define("property-definition", property, unit);
@@ -72,7 +84,7 @@ public:
     {
       if (m_Model.roots.axes[axis].parent == kNoRoot)
       {
-        m_File << "    <plant ID=\"plant-" << axis << "\" label=\""
+        m_File << "    <plant ID=\"plant-" << m_Ids[axis] << "\" label=\""
                << (m_Model.roots.axes[axis].loose ? "loose piece" : "plant") << "\">\n";
         WriteRoot(axis, 3);
         m_File << "    </plant>\n";
@@ -102,8 +114,9 @@ private:
     const RootAxis &   axis = m_Model.roots.axes[number];
     const RootRecord & record = m_Model.traits.roots[number];
     const std::string  indent(static_cast<std::size_t>(2 * depth), ' ');
-    m_File << indent << "<root ID=\"root-" << number << "\" label=\""
-           << (axis.name.empty() ? (axis.level == 0 ? "stem " : "root ") + std::to_string(number) : XmlText(axis.name))
+    m_File << indent << "<root ID=\"root-" << m_Ids[number] << "\" label=\""
+           << (axis.name.empty() ? (axis.level == 0 ? "stem " : "root ") + std::to_string(m_Ids[number])
+                                 : XmlText(axis.name))
            << "\" po:accession=\"" << (axis.level == 0 ? "PO:0020127" : "PO:0020121") << "\">\n";
     m_File << indent << "  <properties>\n";
     Property(indent, "level", axis.level);
@@ -149,6 +162,7 @@ private:
   const RootModel &                      m_Model;
   const std::vector<double> &            m_Radii;
   std::vector<std::vector<ElementIndex>> m_Children;
+  std::vector<std::int64_t>              m_Ids;
 };
 
 } // namespace
@@ -156,7 +170,7 @@ private:
 void
 WriteRsml(const std::filesystem::path & path, const RootModel & model, const RsmlOptions & options)
 {
-  RsmlWriter(path, model).Write(options);
+  RsmlWriter(path, model, options).Write(options);
 }
 
 } // namespace voxelcore

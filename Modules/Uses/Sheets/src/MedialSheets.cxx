@@ -1,11 +1,11 @@
 #include "voxelcore/Sheets/MedialSheets.h"
 
-#include "GreatestAxis.h"
 #include "LooseFlakes.h"
 #include "SeamChains.h"
 #include "SheetPieces.h"
 #include "ShortRods.h"
 
+#include "voxelcore/Lattice/GreatestAxis.h"
 #include "voxelcore/Lattice/Vectors.h"
 #include "voxelcore/VoxelCore/PolygonArea.h"
 

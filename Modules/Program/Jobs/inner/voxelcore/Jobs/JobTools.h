@@ -40,6 +40,11 @@ ScanWeights(const ImageGeometry & geometry, const std::filesystem::path & scan);
 void
 RequireLengthsOf(const std::filesystem::path & scan, SpatialUnit unit, const CertifiedRequest & request);
 
+/** A length that `option` gives for lines without voxels. \throws UsageError unless it is in mm or, where lengths are
+ *  in voxels, in these; InputError as RequireLengthIn() */
+double
+PlainLength(const Lambda & length, SpatialUnit unit, const std::string & option);
+
 /** \throws InputError where the lengths of two files are not in one unit. */
 void
 RequireSameUnit(const std::filesystem::path & one,
@@ -57,6 +62,10 @@ RequireSamePlace(const ImageGeometry &         other,
                  const ImageGeometry &         labels,
                  const std::string &           option,
                  const std::filesystem::path & path);
+
+/** yyyy-mm-ddThh:mm:ss, UTC: when a file was changed last. */
+std::string
+ModificationTime(const std::filesystem::path & path);
 
 /** \throws InputError, naming the file, unless its field Provenance `fits` its cells. */
 void

@@ -433,7 +433,7 @@ inline constexpr auto kGreyRows = std::to_array<Parameter>({
     true },
 });
 
-inline constexpr auto kBranchRows = std::to_array<Parameter>({
+inline constexpr auto kAlsoRows = std::to_array<Parameter>({
   { "also",
     "--also",
     Text,
@@ -442,6 +442,9 @@ inline constexpr auto kBranchRows = std::to_array<Parameter>({
     false,
     Group::Skeleton,
     "Write the skeleton in more forms: csv, swc, mrk.json, graphml, obj, precomputed, ma" },
+});
+
+inline constexpr auto kRootRows = std::to_array<Parameter>({
   { "root",
     "--root",
     Text,
@@ -451,6 +454,9 @@ inline constexpr auto kBranchRows = std::to_array<Parameter>({
     Group::Skeleton,
     "Start the hierarchy of branches at the tip nearest to a point (LPS mm), the tip with the greatest z (top) or the "
     "least (bottom), or the tip of the thickest branch" },
+});
+
+inline constexpr auto kCutRows = std::to_array<Parameter>({
   { "cut-loops",
     "--cut-loops",
     Flag,
@@ -468,6 +474,8 @@ inline constexpr auto kBranchRows = std::to_array<Parameter>({
     Group::Skeleton,
     "Give each branch its own end points, so that branches are separate lines" },
 });
+
+inline constexpr auto kBranchRows = Joined(kAlsoRows, kRootRows, kCutRows);
 
 inline constexpr auto kNetworkRows = std::to_array<Parameter>({
   { "soma",

@@ -6,8 +6,11 @@
 #include "voxelcore/Models/TableHead.h"
 #include "voxelcore/Roots/RootTraits.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace voxelcore
 {
@@ -22,12 +25,22 @@ struct RootModel
   SpatialUnit   unit = SpatialUnit::Millimetres;
 };
 
+/** Of files whose roots have the same ids: a plant over time. */
+struct RsmlSequence
+{
+  std::string               label; ///< the same in all of them
+  std::int64_t              index = 0;
+  std::vector<std::int64_t> ids; ///< of the axes
+};
+
 /** What a file says of itself. */
 struct RsmlOptions
 {
   std::string lastModified; ///< yyyy-mm-ddThh:mm:ss: of the scan, so that equal scans give equal files
   std::string software;     ///< with its version
   std::string sha256;       ///< of the scan; may be empty
+
+  std::optional<RsmlSequence> sequence{};
 };
 
 /** RSML 1: a plant per stem, roots nested as they spring from each other, each a polyline from its base on, the first

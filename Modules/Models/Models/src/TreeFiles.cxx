@@ -1,4 +1,4 @@
-#include "voxelcore/Compare/TreeFiles.h"
+#include "voxelcore/Models/TreeFiles.h"
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"

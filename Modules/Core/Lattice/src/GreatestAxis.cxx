@@ -1,4 +1,4 @@
-#include "GreatestAxis.h"
+#include "voxelcore/Lattice/GreatestAxis.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "voxelcore/Phantom/PhantomCommand.h"
-#include "voxelcore/Compare/TreeFiles.h"
+#include "voxelcore/Models/TreeFiles.h"
 
-#include "CompareGraphs.h"
 #include "Program/Jobs/JobFolder.h"
+#include "Uses/Compare/CompareGraphs.h"
 
 #include <algorithm>
 #include <numeric>
