@@ -21,7 +21,7 @@ namespace voxelcore
 namespace
 {
 
-constexpr std::size_t kMostPoints = std::size_t{ 1 } << 30; ///< numbers of points have 32 bits
+constexpr std::size_t kMostTreePoints = std::size_t{ 1 } << 30; ///< numbers of points have 32 bits
 
 std::string
 ReadText(const std::filesystem::path & path)
@@ -137,7 +137,7 @@ ReadSwc(const std::filesystem::path & path)
     const auto id = static_cast<std::int64_t>(values[0]);
     const auto parent = static_cast<std::int64_t>(values[6]);
     const auto point = static_cast<ElementIndex>(edges.positions.size());
-    if (values[5] < 0 || point >= kMostPoints || !known.emplace(id, point).second)
+    if (values[5] < 0 || point >= kMostTreePoints || !known.emplace(id, point).second)
     {
       throw unfit(number, values[5] < 0 ? "a radius is below 0" : "its id was given already");
     }
