@@ -11,7 +11,7 @@ namespace voxelcore::testing
 namespace
 {
 
-constexpr double kLeast = 1;
+constexpr double kNear = 1;
 
 /** The greatest distance by which one motion misplaces a graph's points against another. */
 double
@@ -44,7 +44,7 @@ TEST(RigidMotion, IsFoundWhateverGrewAndWhicheverWayItTurned)
 {
   constexpr std::uint64_t seed = 4711;
   std::cout << "seeds from " << seed << '\n';
-  for (std::uint64_t test = 0; test < 30; ++test)
+  for (std::uint64_t test = 0; test < 12; ++test)
   {
     SCOPED_TRACE("seed " + std::to_string(seed + test));
     Random              random(seed + test);
@@ -65,7 +65,7 @@ TEST(RigidMotion, IsFoundWhateverGrewAndWhicheverWayItTurned)
     }
     const RigidMotion   truth = RandomMotion(random);
     const SkeletonGraph after = Moved(TreeOf(grown, 1), truth);
-    const FoundMotion   found = FindMotion(before, after, kLeast);
+    const FoundMotion   found = FindMotion(before, after, kNear);
     EXPECT_LT(Misplaced(before, found.motion, truth), 1e-3);
     EXPECT_GT(found.found, 0.999);
     EXPECT_LT(found.rms, 1e-3);
@@ -76,7 +76,7 @@ TEST(RigidMotion, IsFoundThoughAFifthWasLostAndPlacesAreUncertain)
 {
   constexpr std::uint64_t seed = 5722;
   std::cout << "seeds from " << seed << '\n';
-  for (std::uint64_t test = 0; test < 20; ++test)
+  for (std::uint64_t test = 0; test < 8; ++test)
   {
     SCOPED_TRACE("seed " + std::to_string(seed + test));
     Random        random(seed + test);
@@ -92,22 +92,35 @@ TEST(RigidMotion, IsFoundThoughAFifthWasLostAndPlacesAreUncertain)
         part += 0.4 * (random.Unit() - 0.5);
       }
     }
-    const FoundMotion found = FindMotion(before, after, kLeast);
+    const FoundMotion found = FindMotion(before, after, kNear);
     EXPECT_LT(Misplaced(before, found.motion, truth), 0.5);
     EXPECT_LT(found.found, 0.97);
     EXPECT_GT(found.found, 0.6);
-    EXPECT_GT(found.slack, 0.02);
-    EXPECT_LT(found.slack, 0.3);
+    EXPECT_LT(found.spread, 1);
   }
 }
 
 TEST(RigidMotion, OfOneStraightLineIsUncertain)
 {
-  const SkeletonGraph line = TreeOf({ { { 0, 0, 0 }, { 0, 0, 10 }, { 0, 0, 20 } } }, 1);
-  SkeletonGraph       after = TreeOf({ { { 0, 0.1, 0 }, { 0, -0.1, 10 }, { 0, 0.1, 20 }, { 0, 0, 30 } } }, 1);
-  const FoundMotion   found = FindMotion(line, after, kLeast);
-  EXPECT_GT(found.found, 0.99);
-  EXPECT_GT(found.slack, found.tolerance);
+  constexpr std::uint64_t seed = 6023;
+  std::cout << "seeds from " << seed << '\n';
+  for (std::uint64_t test = 0; test < 10; ++test)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed + test));
+    Random     random(seed + test);
+    const auto line = [&](int length) {
+      Line points;
+      for (int i = 0; i <= length; ++i)
+      {
+        points.push_back({ 0.1 * random.Unit(), 0.1 * random.Unit(), static_cast<double>(i) });
+      }
+      return TreeOf({ points }, 1);
+    };
+    const SkeletonGraph before = line(30);
+    const FoundMotion   found = FindMotion(before, line(36), kNear);
+    EXPECT_GT(found.found, 0.99);
+    EXPECT_GT(found.spread, 1.5);
+  }
 }
 
 TEST(RigidMotion, OfOtherTreesFindsLittle)
@@ -115,12 +128,12 @@ TEST(RigidMotion, OfOtherTreesFindsLittle)
   constexpr std::uint64_t seed = 6733;
   std::cout << "seeds from " << seed << '\n';
   double most = 0;
-  for (std::uint64_t test = 0; test < 20; ++test)
+  for (std::uint64_t test = 0; test < 8; ++test)
   {
     Random              random(seed + test);
     const SkeletonGraph one = TreeOf(RandomTree(random, 10), 1);
     const SkeletonGraph other = TreeOf(RandomTree(random, 10), 1);
-    most = std::max(most, FindMotion(one, other, kLeast).found);
+    most = std::max(most, FindMotion(one, other, kNear).found);
   }
   std::cout << "found at most " << most << '\n';
   EXPECT_LT(most, 0.5);
@@ -133,8 +146,8 @@ TEST(RigidMotion, ThatIsKnownIsMeasured)
   Random              random(seed);
   const SkeletonGraph tree = TreeOf(RandomTree(random, 6), 1);
   const RigidMotion   truth = RandomMotion(random);
-  EXPECT_LT(MeasureMotion(tree, Moved(tree, truth), truth, kLeast).rms, 1e-9);
-  EXPECT_LT(MeasureMotion(tree, Moved(tree, truth), {}, kLeast).found, 0.5);
+  EXPECT_LT(MeasureMotion(tree, Moved(tree, truth), truth, kNear).rms, 1e-9);
+  EXPECT_LT(MeasureMotion(tree, Moved(tree, truth), {}, kNear).found, 0.5);
   EXPECT_EQ(MedianRadius(tree), 1);
 }
 

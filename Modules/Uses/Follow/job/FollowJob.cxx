@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace voxelcore
 {
@@ -24,6 +25,8 @@ namespace
 /** Of the day before, share of the length that must be found on a day, or its motion is not believed. */
 constexpr double kLeastFound = 0.5;
 constexpr double kFewFound = 0.8; ///< and below which a user is told
+/** FoundMotion::spread above which a motion is uncertain. */
+constexpr double kMostSpread = 1.5;
 
 struct DayRead
 {
@@ -119,10 +122,10 @@ JudgeMotion(const FoundMotion & found, const fs::path & before, const fs::path &
     result.warnings.push_back(now.string() + ": " + share +
                               " in it; look at identities.vtp before you use its numbers");
   }
-  if (!still && found.slack > found.tolerance)
+  if (!still && found.spread > kMostSpread)
   {
-    result.warnings.push_back(now.string() + ": its motion is uncertain by " + FixedText(found.slack) + " " +
-                              UnitName(result.unit) +
+    result.warnings.push_back(now.string() + ": its motion is uncertain by " + FixedText(found.spread * found.rms) +
+                              " " + UnitName(result.unit) +
                               ", as its lines may slide or turn in themselves; align the days and give --motion none");
   }
 }
@@ -185,7 +188,8 @@ RunFollowJob(const FollowOptions & options, const JobContext & given)
   }
 
   ReportProgress(context.progress, "following", 0.9);
-  result.motions.emplace_back();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  result.motions.push_back({ {}, none, none, none });
   for (std::size_t day = 1; day < graphs.size(); ++day)
   {
     FoundMotion found = options.still ? MeasureMotion(graphs[day - 1], graphs[day], {}, least)

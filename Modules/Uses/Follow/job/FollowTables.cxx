@@ -56,7 +56,7 @@ constexpr auto kDayColumns = std::to_array<Column>({
   { "growth", "mm", "of that since the day before, by unit of time" },
   { "found", "1", "share of the length of the day before that is within the tolerance of this day's lines" },
   { "rms", "mm", "of the distances there" },
-  { "slack", "mm", "standard deviation of the place that this motion leaves least certain" },
+  { "slack", "mm", "standard deviation of the place that this motion leaves least certain: more than 1.5 rms warn" },
   { "turn", "degree", "by how much the motion into the space of the first day turns" },
   { "r11", "", "that motion: p -> R p + (x, y, z)" },
   { "r12", "", "" },
@@ -170,7 +170,7 @@ DayRows(const FollowResult & result)
                            Known(growth),
                            Known(moved.found),
                            Known(moved.rms),
-                           Known(moved.slack),
+                           Known(moved.spread * moved.rms),
                            moved.motion.Turn() };
     row.insert(row.end(), moved.motion.rotation.begin(), moved.motion.rotation.end());
     row.insert(row.end(), moved.motion.shift.begin(), moved.motion.shift.end());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -160,18 +161,15 @@ RequireCourse(const FollowedBranch & branch,
   Require(known != before.branches.end(), number, name + " was not there on the day it is known from");
   const Course earlier = CourseOf(before.graph, known->points, known->parent != 0);
   const Course later = CourseOf(day.graph, branch.points, branch.parent != 0);
-  double       step = least;
+  double       thinnest = std::numeric_limits<double>::infinity();
   for (const double radius : earlier.radii)
   {
-    step = &radius == &earlier.radii.front() ? std::max(radius, least) : std::min(step, std::max(radius, least));
+    thinnest = std::min(thinnest, std::max(radius, least));
   }
-  const double advance = Advance(earlier, later, step / 4, least);
-  Require(std::abs(advance - branch.advance) <= kRounding * (1 + later.arcs.back()),
-          number,
-          name + " was measured wrong");
-  Require(advance >= SharedNeed(earlier, later.arcs.back()) - kRounding * later.arcs.back(),
-          number,
-          name + " does not share its course");
+  const double advance = Advance(earlier, later, thinnest / 4, least);
+  const double rounding = kRounding * (1 + later.arcs.back());
+  Require(std::abs(advance - branch.advance) <= rounding, number, name + " was measured wrong");
+  Require(advance >= SharedNeed(earlier, later.arcs.back()) - rounding, number, name + " does not share its course");
 }
 
 } // namespace

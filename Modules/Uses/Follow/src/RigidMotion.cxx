@@ -392,7 +392,6 @@ public:
       const Vector3     at = motion(place.at);
       const Lines::Foot foot = m_Lines.Nearest(at);
       const double      squared = Dot(foot.away, foot.away);
-      result.tolerance += place.tolerance / static_cast<double>(m_Many.size());
       if (squared <= place.tolerance * place.tolerance)
       {
         pull.Add(at, foot);
@@ -403,7 +402,7 @@ public:
     }
     result.found = count / static_cast<double>(m_Many.size());
     result.rms = count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
-    result.slack = std::numeric_limits<double>::infinity();
+    result.spread = std::numeric_limits<double>::infinity();
     if (count > 0)
     {
       pull.Factor();
@@ -416,7 +415,7 @@ public:
         whole += m_From.BranchLength(branch);
       }
       const double repeated = std::max(1.0, apart / (whole * result.found)); // places that count as one
-      result.slack = result.rms * std::sqrt(greatest * repeated / 2);        // across a line are two directions
+      result.spread = std::sqrt(greatest * repeated / 2);                    // across a line are two directions
     }
     return result;
   }

@@ -31,10 +31,9 @@ struct FoundMotion
   RigidMotion motion;
   double      found = 0; ///< share of the length that is found
   double      rms = 0;   ///< of the distances of found places to the other's lines, mm
-  /** By how much a place may be off, mm: the greatest standard deviation that follows from rms, where places a diameter
-   *  apart count as independent. Great where a skeleton could slide along itself, as one straight line can. */
-  double slack = 0;
-  double tolerance = 0; ///< mean of what counts as found, mm
+  /** By how much a place may be off, times rms: the greatest standard deviation that follows from a distance's, where
+   *  places a diameter apart count as independent. Great where lines could slide or turn in themselves. */
+  double spread = 0;
 };
 
 /** The motion that brings the places of `from` onto the lines of `to`, which may have more: trimmed iterations of
