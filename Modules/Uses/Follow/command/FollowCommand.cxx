@@ -2,6 +2,7 @@
 
 #include "voxelcore/Follow/FollowCommand.h"
 
+#include "voxelcore/Base/Error.h"
 #include "voxelcore/Options/FieldReader.h"
 #include "voxelcore/Options/ParameterReader.h"
 #include "voxelcore/Options/Requests.h"
@@ -45,8 +46,16 @@ constexpr auto kFollowOwn = std::to_array<Parameter>({
     "-" },
 });
 
-constexpr auto kFollowRows =
-  Joined(kRunRows, kFollowOwn, kFolderOutput, kLabelRows, kValueRows, kTableRows, kForceRows, kRootRows);
+constexpr auto kFollowRows = Joined(kRunRows,
+                                    kFollowOwn,
+                                    kFolderOutput,
+                                    kLabelRows,
+                                    kShapeRows,
+                                    kValueRows,
+                                    kTreeRows,
+                                    kTableRows,
+                                    kForceRows,
+                                    kRootRows);
 
 } // namespace table
 
@@ -54,13 +63,13 @@ namespace
 {
 
 constexpr std::string_view kFooter =
-  R"(Each day's certified skeleton is moved onto the day before. A branch is the way from its base to its tip: it keeps its
-number while it grows, also where others spring from it. OUTDIR/branches.csv has a row per branch and day with length,
-growth, radius and its change, tip and state: kept, new, lost, or back; days.csv the motions and sums. identities.vtp
-shows all days in the space of the first, coloured by Id or Day; day-N.rsml are files of one time sequence.
+  R"(Each day's certified skeleton is moved onto the day before. A branch is the way from its base to its tip. It keeps
+its number while it grows, and where others spring from it. OUTDIR/branches.csv has a row per branch and day with length,
+growth, radius and its change, tip and state: kept, new, lost, or back; days.csv has the motions and sums. identities.vtp
+shows all days in the space of the first, coloured by Id or Day. day-N.rsml are files of one time sequence.
 
-A day of which less than half is found again ends the run; --near allows for more deformation. Noisy masks are cleaned
-first by 'voxelcore skeleton' and its options. Guide: compare.md
+A day of which less than half is found again ends the run; --near allows for more deformation. Noisy masks need
+--largest 1 and --mend-shape. Guide: compare.md
 
 Examples:
   voxelcore follow day0.nii.gz day7.nii.gz day14.nii.gz --times 0,7,14 --root top -o followed/
@@ -81,6 +90,10 @@ FollowOptionsFrom(const ParameterValues & values)
   options.making =
     SkeletonOptionsFrom({ { "scan", "a scan" }, { "output", "skeleton.vtp" }, { "root", reader.Text("root") } });
   ReadScanFields(reader, options.making);
+  if (reader.IsSet("split-components"))
+  {
+    throw UsageError("--split-components: a day is followed as one body; leave it out");
+  }
   if (reader.IsGiven("times"))
   {
     for (const std::string & text : SplitText(reader.Text("times"), ','))

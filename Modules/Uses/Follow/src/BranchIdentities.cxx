@@ -30,8 +30,28 @@ struct Hierarchy
   std::vector<ElementIndex>              order; ///< parents before what springs from them
 };
 
+/** The end of a branch nearest to a place, and that branch. */
+std::pair<ElementIndex, std::size_t>
+EndAt(const SkeletonGraph & graph, const Vector3 & place)
+{
+  std::pair<ElementIndex, std::size_t> best;
+  double                               nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
+  {
+    for (const ElementIndex node : graph.branchNodes[branch])
+    {
+      if (const double away = Distance(graph.positions[graph.nodePoints[node]], place); away < nearest)
+      {
+        nearest = away;
+        best = { node, branch };
+      }
+    }
+  }
+  return best;
+}
+
 Hierarchy
-HierarchyOf(const SkeletonGraph & graph, const std::vector<RootChoice> & roots)
+HierarchyOf(const SkeletonGraph & graph, const std::vector<RootChoice> & roots, bool areKnown)
 {
   const std::size_t         count = graph.BranchCount();
   Hierarchy                 found{ std::vector<ElementIndex>(count, kNoBranch),
@@ -42,21 +62,16 @@ HierarchyOf(const SkeletonGraph & graph, const std::vector<RootChoice> & roots)
   std::vector<std::uint8_t> isDone(count + 1, 0); // components
   for (const RootChoice & root : roots)
   {
-    const BranchTable table = MeasureBranches(graph, { root });
-    // The component that a place speaks of is that of its nearest tip; without a place all that are left are meant.
-    ElementIndex component = 0;
-    double       nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t branch = 0; branch < count && root.kind == RootChoice::Kind::Point; ++branch)
+    const bool isPlace = root.kind == RootChoice::Kind::Point;
+    const auto [node, at] = EndAt(graph, root.point);
+    SkeletonGraph begun = graph;
+    if (isPlace && areKnown)
     {
-      for (const ElementIndex point : { graph.Branch(branch).front(), graph.Branch(branch).back() })
-      {
-        if (const double distance = Distance(graph.positions[point], root.point); distance < nearest)
-        {
-          nearest = distance;
-          component = table.branches[branch].component;
-        }
-      }
+      begun.nodeKinds[node] = NodeKind::Tip; // it was one, and is where this tree begins though it be none now
     }
+    const BranchTable table = MeasureBranches(begun, { root });
+    // A place speaks of the component nearest to it; without a place all that are left are meant.
+    const ElementIndex        component = isPlace ? table.branches[at].component : 0;
     std::vector<std::uint8_t> isNow(count + 1, 0);
     for (const AxisRecord & axis : table.axes)
     {
@@ -216,7 +231,7 @@ public:
     FollowedDay result;
     result.graph = std::move(given);
     m_Graph = &result.graph;
-    m_Tree = HierarchyOf(result.graph, RootsOf(first));
+    m_Tree = HierarchyOf(result.graph, RootsOf(first), !m_Known.empty());
     m_Owner.assign(result.graph.BranchCount(), 0);
     std::map<std::int64_t, std::vector<ElementIndex>> ways;
     ClaimKnown(ways);

@@ -57,7 +57,7 @@ struct FollowedDay
   std::vector<LostBranch>     lost;     ///< those of the day before that are not there
 };
 
-/** The days' skeletons in one space. `root`: where the hierarchy of the first begins; later ones begin at the tips
+/** The days' skeletons in one space. `root`: where the hierarchy of the first begins; later ones begin at the nodes
  *  nearest to where earlier ones did. */
 std::vector<FollowedDay>
 FollowBranches(std::vector<SkeletonGraph> graphs, const RootChoice & root, double least);
