@@ -9,10 +9,11 @@ random by any angle, shifted, and made voxels, of which the largest piece stays.
 (standard deviation), alike within 0.8 voxels. One lateral is hidden on one day, as an artefact hides it, with all
 that springs from it. A row a seed:
 
-ids       of roots seen on two days that follow each other, how many have one number, which no other root has
+ids       of roots, told by the half before their tips, that are seen on two days that follow each other, how many have
+          one number, which no other root has
 back      whether the hidden root has its number again, days at a time
-wrong     branches that are no root
-growth    of all roots between days they are seen on, by how much the sum is off; the median over roots of those
+wrong     branches whose tip is on no root
+growth    of all roots from day to day while their number is kept, by how much the sum is off; the median over those
           that grew by 10 voxels and more
 move      by how much a day's motion misplaces the day before, voxels: root mean square, of the worst day
 
@@ -156,7 +157,7 @@ def follow(program, files, output, *more):
     with open(os.path.join(output, "branches.csv")) as file:
         for row in csv.DictReader(file):
             if row["state"] != "lost":
-                rows[int(row["day"]), int(row["id"])] = float(row["length"])
+                rows[int(row["day"]), int(row["id"])] = float(row["growth"] or "nan")
     return days, rows, lines_of(output, len(days))
 
 
@@ -200,23 +201,20 @@ def score(truth, found, count):
             turned, shift = motions[day - 1]
             places, arcs = dense((line - shift) @ turned)
             away = []
-            for key, points, radii, _, base in roots:  # of each what lies outside its parent
+            for key, points, radii, _, base in roots:  # of each the half before its tip, outside its parent
                 own, along = dense(points)
-                own = own[along >= min(base, along[-1])]
+                own = own[along >= min(base, along[-1]) + (along[-1] - min(base, along[-1])) / 2]
                 away.append(numpy.linalg.norm(places[:, None] - own[None], axis=2).min(1))
             nearest = numpy.argmin(away, 0)
             isNear = numpy.min(away, 0) < 3
-            outside = arcs >= min(4, arcs[-1] / 2)
-            counts = numpy.bincount(nearest[isNear & outside], minlength=len(roots)) / 2
-            if counts.sum() < 0.5 * outside.sum() / 2:
-                wrong += 1
-                continue
+            counts = numpy.bincount(nearest[isNear], minlength=len(roots)) / 2
+            wrong += all(numpy.linalg.norm(places[-1] - points, axis=1).min() > 3 for _, points, *_ in roots)
             for k, length in enumerate(counts):
                 shares.setdefault(roots[k][0], []).append((length, number))
         for key, points, radii, length, base in roots:
             if length - base >= SEEN:
                 best = max(shares.get(key, [(0, 0)]))
-                ids[day, key] = best[1] if best[0] >= 0.5 * (length - base) else 0
+                ids[day, key] = best[1] if best[0] >= 0.25 * (length - base) else 0
                 lengths[day, key] = length
     # A number that stands for two roots on one day is right for neither but that with most of it: the others' are 0.
     for day in range(1, count + 1):
@@ -235,8 +233,8 @@ def score(truth, found, count):
             pairs += 1
             other = ids[day + 1, key]
             kept += number != 0 and number == other
-            if number and other and (day, number) in rows and (day + 1, other) in rows:
-                more = rows[day + 1, other] - rows[day, number]
+            if number and number == other:
+                more = rows[day + 1, other]
                 measured += more
                 true += lengths[day + 1, key] - lengths[day, key]
                 one = grown.setdefault(key, [0, 0])

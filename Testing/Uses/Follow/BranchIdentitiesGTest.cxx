@@ -74,6 +74,8 @@ TEST(BranchIdentities, AreKeptWhereOthersSpringAndTipsGrow)
   EXPECT_EQ(lateral.id, At(days[0], { 12, 0, 10 }).id);
   EXPECT_EQ(stem.length, 36);
   EXPECT_EQ(lateral.length, 15);
+  EXPECT_NEAR(stem.growth, 6, 1e-9);
+  EXPECT_NEAR(lateral.growth, 3, 1e-9);
   EXPECT_EQ(lateral.parent, stem.id);
   EXPECT_EQ(stem.state, BranchState::Kept);
   EXPECT_EQ(At(days[1], { 0, 9, 20 }).state, BranchState::New);
@@ -108,6 +110,7 @@ TEST(BranchIdentities, AreKeptOfWhatShrinksAndOfATreeThatBeginsAtItsOtherEnd)
 {
   const auto days = Follow({ { kLongStem, kLongLateral }, { kStem, Straight({ 0, 0, 10 }, { 7, 0, 10 }) } });
   EXPECT_EQ(At(days[1], { 7, 0, 10 }).id, At(days[0], { 15, 0, 10 }).id);
+  EXPECT_NEAR(At(days[1], { 7, 0, 10 }).growth, -8, 1e-9);
   // The thickest tip of the second day would be another; it begins where the first did.
   const auto down = Follow({ { kStem, kLateral }, { kLongStem, kLongLateral } }, { 0, 0, 30 });
   EXPECT_EQ(down[0].branches.size(), 2U);
@@ -206,6 +209,7 @@ TEST(BranchIdentities, ThatAreWrongAreRefused)
   refused("order", [](Days & wrong, Motions &) { wrong[1].branches[1].order = 2; });
   refused("a wrong state", [](Days & wrong, Motions &) { wrong[1].branches[1].state = BranchState::New; });
   refused("measured wrong", [](Days & wrong, Motions &) { wrong[1].branches[1].advance += 1; });
+  refused("grown otherwise", [](Days & wrong, Motions &) { wrong[1].branches[1].growth += 1; });
   refused("what is lost", [](Days & wrong, Motions &) { wrong[1].lost.push_back({ 2, {} }); });
   refused("measured wrong", [](Days & wrong, Motions &) { // each is called as the other was
     std::swap(wrong[1].branches[0].id, wrong[1].branches[1].id);

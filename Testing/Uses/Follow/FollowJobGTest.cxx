@@ -89,7 +89,7 @@ TEST_F(FollowJob, GrowthOfMasksIsByTheUnitOfTime)
   EXPECT_EQ(result.days[1].branches.size(), 3U);
   EXPECT_EQ(result.days[2].branches.size(), 3U);
   EXPECT_NEAR(result.motions[2].motion.shift[0], -4, 0.15); // mm: eight voxels
-  EXPECT_LT(result.motions[2].motion.Turn(), 2); // about the stem little holds it
+  EXPECT_LT(result.motions[2].motion.Turn(), 2);            // about the stem little holds it
   const Json   report = Json::parse(Bytes("report.json"));
   double       growth = 0;
   double       change = 0;

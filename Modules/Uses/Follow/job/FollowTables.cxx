@@ -33,7 +33,10 @@ constexpr auto kBranchColumns = std::to_array<Column>({
   { "order", "", "0 without parent, 1 what springs from those, and so on" },
   { "state", "", "kept, new, back (it was lost) or lost (it was there the day before)" },
   { "length", "mm", "along the centre line, from its parent's to its tip" },
-  { "growth", "mm", "of length since it was last there (of a new one since the day before, from 0), by unit of time" },
+  { "growth",
+    "mm",
+    "by which its tip went on along its course since it was last there, by unit of time; of a new one its length since "
+    "the day before" },
   { "mean_radius", "mm", "outside the ball it springs from, weighted by length" },
   { "radius_change",
     "mm",
@@ -53,7 +56,7 @@ constexpr auto kDayColumns = std::to_array<Column>({
   { "back", "", "of them, that had been lost" },
   { "lost", "", "branches of the day before that are not there" },
   { "length", "mm", "of all branches" },
-  { "growth", "mm", "of that since the day before, by unit of time" },
+  { "growth", "mm", "of all branches, by unit of time" },
   { "found", "1", "share of the length of the day before that is within the tolerance of this day's lines" },
   { "rms", "mm", "of the distances there" },
   { "slack", "mm", "standard deviation of the place that this motion leaves least certain: more than 1.5 rms warn" },
@@ -84,11 +87,22 @@ NameOf(BranchState state)
   return state == BranchState::Kept ? "kept" : state == BranchState::New ? "new" : "back";
 }
 
+/** By unit of time; NaN on the first day. */
+double
+GrowthOf(const FollowResult & result, std::size_t day, const FollowedBranch & branch)
+{
+  const bool isNew = branch.state == BranchState::New;
+  if (day == 0)
+  {
+    return kNone;
+  }
+  return (isNew ? branch.length : branch.growth) / (result.times[day] - result.times[isNew ? day - 1 : branch.before]);
+}
+
 Rows
 BranchRows(const FollowResult & result)
 {
-  Rows                                   rows;
-  std::map<std::int64_t, FollowedBranch> last;
+  Rows rows;
   for (std::size_t day = 0; day < result.days.size(); ++day)
   {
     const FollowedDay & now = result.days[day];
@@ -99,26 +113,16 @@ BranchRows(const FollowResult & result)
     };
     for (const FollowedBranch & branch : now.branches)
     {
-      double growth = kNone;
-      if (branch.state != BranchState::New)
-      {
-        growth = (branch.length - last[branch.id].length) / (result.times[day] - result.times[branch.before]);
-      }
-      else if (day > 0)
-      {
-        growth = branch.length / (result.times[day] - result.times[day - 1]);
-      }
       auto row = head(branch.id);
       row.insert(row.end(),
                  { branch.parent == 0 ? Json() : Json(branch.parent),
                    branch.order,
                    NameOf(branch.state),
                    branch.length,
-                   Known(growth),
+                   Known(GrowthOf(result, day, branch)),
                    branch.meanRadius,
                    Known(branch.radiusChange) });
       add(row, now.graph.positions[branch.points.back()]);
-      last[branch.id] = branch;
     }
     for (const LostBranch & branch : now.lost)
     {
@@ -155,9 +159,11 @@ DayRows(const FollowResult & result)
   {
     const FollowedDay & now = result.days[day];
     const FoundMotion & moved = result.motions[day];
-    const double        length = LengthOf(now);
-    const double        growth =
-      day == 0 ? kNone : (length - LengthOf(result.days[day - 1])) / (result.times[day] - result.times[day - 1]);
+    double              growth = 0;
+    for (const FollowedBranch & branch : now.branches)
+    {
+      growth += GrowthOf(result, day, branch);
+    }
     std::vector<Json> row{ day + 1,
                            result.times[day],
                            result.names[day],
@@ -166,7 +172,7 @@ DayRows(const FollowResult & result)
                            CountOf(now, BranchState::New),
                            CountOf(now, BranchState::Back),
                            now.lost.size(),
-                           length,
+                           LengthOf(now),
                            Known(growth),
                            Known(moved.found),
                            Known(moved.rms),

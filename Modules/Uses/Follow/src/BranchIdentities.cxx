@@ -137,26 +137,41 @@ public:
     double arc = 0;
     double radius = 0;
   };
+  /** None where no piece is within its tolerance. */
   std::optional<Foot>
   At(const Vector3 & place) const
   {
-    const auto found = m_Tree.FindNearest(place, m_Widest * (1 + 1e-9));
+    Foot         foot;
+    const double away = Nearest(place, m_Widest * (1 + 1e-9), foot);
+    return away <= std::max(foot.radius, m_Least) ? std::optional(foot) : std::nullopt;
+  }
+
+  double
+  ArcOf(const Vector3 & place) const
+  {
+    Foot foot;
+    Nearest(place, std::numeric_limits<double>::infinity(), foot);
+    return foot.arc;
+  }
+
+private:
+  /** \returns the distance */
+  double
+  Nearest(const Vector3 & place, double within, Foot & foot) const
+  {
+    const auto found = m_Tree.FindNearest(place, within);
     if (found.triangle == TriangleTree::kNoTriangle)
     {
-      return std::nullopt;
+      return std::numeric_limits<double>::infinity();
     }
     const std::size_t piece = found.triangle;
     const double      length = m_Course.arcs[piece + 1] - m_Course.arcs[piece];
     const double      share = length > 0 ? Distance(found.point, m_Course.places[piece]) / length : 0;
-    const double      radius = m_Course.radii[piece] + share * (m_Course.radii[piece + 1] - m_Course.radii[piece]);
-    if (!(std::sqrt(found.squaredDistance) <= std::max(radius, m_Least)))
-    {
-      return std::nullopt;
-    }
-    return Foot{ m_Course.arcs[piece] + share * length, radius };
+    foot.arc = m_Course.arcs[piece] + share * length;
+    foot.radius = m_Course.radii[piece] + share * (m_Course.radii[piece + 1] - m_Course.radii[piece]);
+    return std::sqrt(found.squaredDistance);
   }
 
-private:
   static std::vector<std::array<std::uint32_t, 3>>
   PiecesOf(const Course & course)
   {
@@ -495,6 +510,8 @@ private:
         branch.before = known.day;
         branch.advance = AdvanceAlong(known.course, course, m_Least);
         branch.radiusChange = RadiusChange(known.course, course);
+        branch.growth = course.arcs.back() - CourseTree(course, m_Least).ArcOf(known.course.places.back()) +
+                        CourseTree(known.course, m_Least).ArcOf(course.places.back()) - known.course.arcs.back();
       }
       known.order = branch.order;
       known.day = day;

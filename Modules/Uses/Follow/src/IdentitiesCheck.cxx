@@ -169,6 +169,10 @@ RequireCourse(const FollowedBranch & branch,
   const double advance = Advance(earlier, later, thinnest / 4, least);
   const double rounding = kRounding * (1 + later.arcs.back());
   Require(std::abs(advance - branch.advance) <= rounding, number, name + " was measured wrong");
+  constexpr double anywhere = std::numeric_limits<double>::infinity();
+  const double     growth = later.arcs.back() - ArcAt(later, earlier.places.back(), anywhere) +
+                        ArcAt(earlier, later.places.back(), anywhere) - earlier.arcs.back();
+  Require(std::abs(growth - branch.growth) <= rounding, number, name + " has grown otherwise");
   Require(advance >= SharedNeed(earlier, later.arcs.back()) - rounding, number, name + " does not share its course");
 }
 
