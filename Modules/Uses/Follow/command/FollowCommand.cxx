@@ -64,9 +64,9 @@ namespace
 
 constexpr std::string_view kFooter =
   R"(Each day's certified skeleton is moved onto the day before. A branch is the way from its base to its tip. It keeps
-its number while it grows, and where others spring from it. OUTDIR/branches.csv has a row per branch and day with length,
-growth, radius and its change, tip and state: kept, new, lost, or back; days.csv has the motions and sums. identities.vtp
-shows all days in the space of the first, coloured by Id or Day. day-N.rsml are files of one time sequence.
+its number while it grows, and where others spring from it. OUTDIR/branches.csv has a row per branch and day: length,
+growth, radius and its change, tip, and state: kept, new, lost, or back. days.csv has the motions and sums,
+identities.vtp all days in the space of the first, for colours by Id or Day. day-N.rsml are one time sequence.
 
 A day of which less than half is found again ends the run; --near allows for more deformation. Noisy masks need
 --largest 1 and --mend-shape. Guide: compare.md

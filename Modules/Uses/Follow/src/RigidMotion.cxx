@@ -31,7 +31,8 @@ constexpr std::size_t kBestStarts = 4;
 
 constexpr std::size_t kNodesFrom = 40; ///< junctions that triangles are made of, the thickest, which stay longest
 constexpr std::size_t kNodesTo = 120;  ///< and among which they are looked for: more, as there are new ones
-constexpr std::size_t kTriangles = 12;
+constexpr std::size_t kThickest = 6;
+constexpr std::size_t kStarts = 12;
 constexpr double      kDamping = 1e-6; ///< of the mean curvature: where lines slide along themselves nothing moves
 
 struct Place
@@ -531,6 +532,53 @@ private:
     return { first, Cross(third, first), third };
   }
 
+  /** Triangles of nodes that tell a rotation: of the thickest ones, which stay where they are, all, and of further ones
+   *  the longest and widest. */
+  static std::vector<std::array<std::size_t, 3>>
+  TrianglesOf(const std::vector<Place> & nodes)
+  {
+    std::vector<std::array<std::size_t, 3>> triangles;
+    for (std::size_t a = 0; a < std::min(nodes.size(), kThickest); ++a)
+    {
+      for (std::size_t b = 0; b < a; ++b)
+      {
+        for (std::size_t c = 0; c < b; ++c)
+        {
+          triangles.push_back({ a, b, c });
+        }
+      }
+    }
+    for (std::size_t a = 0; a < std::min(nodes.size(), kStarts); ++a)
+    {
+      const auto from = [&](const Place & node) { return Distance(node.at, nodes[a].at); };
+      const auto b = static_cast<std::size_t>(ranges::max_element(nodes, {}, from) - nodes.begin());
+      const auto beside = [&](const Place & node) { return Area(nodes[a], nodes[b], node); };
+      triangles.push_back({ a, b, static_cast<std::size_t>(ranges::max_element(nodes, {}, beside) - nodes.begin()) });
+    }
+    // Too flat ones do not tell a turn about their longest side.
+    std::erase_if(triangles, [&](const auto & t) {
+      const auto & [a, b, c] = t;
+      const double longest = std::max(
+        { Distance(nodes[a].at, nodes[b].at), Distance(nodes[a].at, nodes[c].at), Distance(nodes[b].at, nodes[c].at) });
+      return !(Area(nodes[a], nodes[b], nodes[c]) > 2 * ToleranceOf(nodes, t) * longest);
+    });
+    return triangles;
+  }
+
+  /** Twice that. */
+  static double
+  Area(const Place & a, const Place & b, const Place & c)
+  {
+    return Length(Cross(Minus(b.at, a.at), Minus(c.at, a.at)));
+  }
+
+  static double
+  ToleranceOf(const std::vector<Place> & nodes, const std::array<std::size_t, 3> & triangle)
+  {
+    const auto & [a, b, c] = triangle;
+    return std::max({ nodes[a].tolerance, nodes[b].tolerance, nodes[c].tolerance });
+  }
+
   /** Starts from the triangles of nodes that occur in both; those that bring most nodes onto others. */
   void
   AddTriangles(std::vector<RigidMotion> & starts) const
@@ -539,22 +587,15 @@ private:
     const std::vector<Place> goals = NodesOf(m_To, kNodesTo, m_Least);
     using Scored = std::pair<std::int64_t, RigidMotion>;
     std::vector<Scored> found;
-    for (std::size_t a = 0; a < std::min(nodes.size(), kTriangles); ++a)
+    for (const auto & triangle : TrianglesOf(nodes))
     {
-      const auto from = [&](const Place & node) { return Distance(node.at, nodes[a].at); };
-      const auto b = static_cast<std::size_t>(ranges::max_element(nodes, {}, from) - nodes.begin());
-      const auto beside = [&](const Place & node) {
-        return Length(Cross(Minus(nodes[b].at, nodes[a].at), Minus(node.at, nodes[a].at)));
-      };
-      const auto   c = static_cast<std::size_t>(ranges::max_element(nodes, {}, beside) - nodes.begin());
-      const double tolerance = std::max({ nodes[a].tolerance, nodes[b].tolerance, nodes[c].tolerance });
-      const double sides[]{ from(nodes[b]), from(nodes[c]), Distance(nodes[b].at, nodes[c].at) };
-      if (!(beside(nodes[c]) > 2 * tolerance * sides[0])) // too flat to tell a turn about its long side
-      {
-        continue;
-      }
-      const auto frame = FrameOf(nodes[a].at, nodes[b].at, nodes[c].at);
-      const auto isNear = [&](double one, double other) { return std::abs(one - other) <= tolerance; };
+      const auto & [a, b, c] = triangle;
+      const double tolerance = ToleranceOf(nodes, triangle);
+      const double sides[]{ Distance(nodes[a].at, nodes[b].at),
+                            Distance(nodes[a].at, nodes[c].at),
+                            Distance(nodes[b].at, nodes[c].at) };
+      const auto   frame = FrameOf(nodes[a].at, nodes[b].at, nodes[c].at);
+      const auto   isNear = [&](double one, double other) { return std::abs(one - other) <= tolerance; };
       for (std::size_t i = 0; i < goals.size(); ++i)
       {
         for (std::size_t j = 0; j < goals.size(); ++j)
@@ -579,7 +620,7 @@ private:
       }
     }
     ranges::stable_sort(found, {}, &Scored::first);
-    for (std::size_t i = 0; i < std::min(found.size(), kTriangles); ++i)
+    for (std::size_t i = 0; i < std::min(found.size(), kStarts); ++i)
     {
       starts.push_back(found[i].second);
     }
