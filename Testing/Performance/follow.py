@@ -246,7 +246,8 @@ def score(truth, found, count):
 
 def series(program, name, roots, count, random, noise, folder):
     """Draws the days and follows them; the files are called by `name`."""
-    candidates = [k for k, root in enumerate(roots) if root.parent is roots[0] and root.birth < count - 5]
+    candidates = [k for k, root in enumerate(roots) if root.parent is roots[0] and root.birth < count - 5
+                  and root.length(count) < 0.1 * sum(other.length(count) for other in roots)]
     hidden = roots[candidates[random.integers(len(candidates))]] if candidates else None
     gone = int(random.integers(3, count)) if hidden else 0
     files, truth, moves = [], {}, []

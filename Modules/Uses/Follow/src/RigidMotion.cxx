@@ -29,10 +29,10 @@ constexpr int         kFewSteps = 15;
 constexpr int         kManySteps = 60;
 constexpr std::size_t kBestStarts = 4;
 
-constexpr std::size_t kNodesFrom = 40; ///< junctions that triangles are made of, the thickest, which stay longest
+constexpr std::size_t kNodesFrom = 40; ///< nodes that triangles are made of, the thickest, which stay longest
 constexpr std::size_t kNodesTo = 120;  ///< and among which they are looked for: more, as there are new ones
-constexpr std::size_t kThickest = 6;
-constexpr std::size_t kStarts = 12;
+constexpr std::size_t kThickest = 8;
+constexpr std::size_t kStarts = 24;
 constexpr double      kDamping = 1e-6; ///< of the mean curvature: where lines slide along themselves nothing moves
 
 struct Place
@@ -497,14 +497,16 @@ private:
     }
   }
 
-  /** Junctions, the thickest first; with fewer than four, tips, too. */
+  /** Junctions and, where there is place, tips; the thickest first. */
   static std::vector<Place>
   NodesOf(const SkeletonGraph & graph, std::size_t most, double least)
   {
     std::vector<Place> nodes;
+    const auto         byRadius = [](const Place & a, const Place & b) { return a.tolerance > b.tolerance; };
     for (const bool tips : { false, true })
     {
-      for (std::size_t node = 0; node < graph.nodePoints.size() && (!tips || nodes.size() < most); ++node)
+      const auto begin = static_cast<std::ptrdiff_t>(nodes.size());
+      for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
       {
         if ((graph.nodeKinds[node] == NodeKind::Junction) != tips)
         {
@@ -512,13 +514,10 @@ private:
           nodes.push_back({ graph.positions[point], std::max(SectionRadii(graph)[point], least) });
         }
       }
-      if (nodes.size() >= 4)
-      {
-        break;
-      }
+      std::stable_sort(nodes.begin() + begin, nodes.end(), byRadius);
     }
-    ranges::stable_sort(nodes, [](const Place & a, const Place & b) { return a.tolerance > b.tolerance; });
     nodes.resize(std::min(nodes.size(), most));
+    ranges::stable_sort(nodes, byRadius);
     return nodes;
   }
 
@@ -595,7 +594,7 @@ private:
                             Distance(nodes[a].at, nodes[c].at),
                             Distance(nodes[b].at, nodes[c].at) };
       const auto   frame = FrameOf(nodes[a].at, nodes[b].at, nodes[c].at);
-      const auto   isNear = [&](double one, double other) { return std::abs(one - other) <= tolerance; };
+      const auto   isNear = [&](double one, double other) { return std::abs(one - other) <= 2 * tolerance; };
       for (std::size_t i = 0; i < goals.size(); ++i)
       {
         for (std::size_t j = 0; j < goals.size(); ++j)
