@@ -95,6 +95,10 @@ def write_inputs(program):
     Path("aorta.swc").rename("traced.swc")
     for name in ("truth.nii.gz", "network.nii.gz"):
         shutil.copy("scan.nii.gz", name)
+    for name in ("day0.nii.gz", "day7.nii.gz"):
+        shutil.copy("root.nii.gz", name)
+    for name in ("before.vtp", "after.vtp"):
+        run(program, "skeleton", "root.nrrd", "-o", name, "-q")
     shutil.copy("root.nrrd", "softmax.nrrd")  # a map that is sure of each voxel
     Path("scans").mkdir()
     shutil.copy("scan.nii.gz", "scans")

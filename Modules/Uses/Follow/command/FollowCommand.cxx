@@ -72,7 +72,7 @@ A day of which less than half is found again ends the run; --near allows for mor
 --largest 1 and --mend-shape. Guide: compare.md
 
 Examples:
-  voxelcore follow day0.nii.gz day7.nii.gz day14.nii.gz --times 0,7,14 --root top -o followed/
+  voxelcore follow day0.nii.gz day7.nii.gz --times 0,7 --root top -o followed/
   voxelcore follow before.vtp after.vtp --near 2mm -o patient/ --report patient.json)";
 
 } // namespace

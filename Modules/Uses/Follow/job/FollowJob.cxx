@@ -180,10 +180,10 @@ RunFollowJob(const FollowOptions & options, const JobContext & given)
   least = options.near ? PlainLength(*options.near, result.unit, "--near") : least;
   for (std::size_t day = 0; day < graphs.size() && !(least > 0); ++day)
   {
-    if (!(MedianRadius(graphs[day]) > 0))
+    if (!ranges::all_of(SectionRadii(graphs[day]), [](double radius) { return radius > 0; }))
     {
       throw InputError(options.days[day].string() +
-                       ": has no radii, so nothing says how near is near; give --near, such as 1mm");
+                       ": has points without radii, so nothing says how near is near; give --near, such as 1mm");
     }
   }
 

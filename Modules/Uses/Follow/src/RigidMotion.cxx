@@ -689,18 +689,4 @@ MeasureMotion(const SkeletonGraph & from, const SkeletonGraph & to, const RigidM
   return Search(from, to, least).Measure(motion);
 }
 
-double
-MedianRadius(const SkeletonGraph & graph)
-{
-  std::vector<double> radii;
-  ranges::copy_if(SectionRadii(graph), std::back_inserter(radii), [](double radius) { return radius > 0; });
-  if (radii.empty())
-  {
-    return 0;
-  }
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle;
-}
-
 } // namespace voxelcore

@@ -47,8 +47,4 @@ FindMotion(const SkeletonGraph & from, const SkeletonGraph & to, double least);
 FoundMotion
 MeasureMotion(const SkeletonGraph & from, const SkeletonGraph & to, const RigidMotion & motion, double least);
 
-/** The median radius of points; 0 where none is above 0. */
-double
-MedianRadius(const SkeletonGraph & graph);
-
 } // namespace voxelcore
