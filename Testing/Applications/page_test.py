@@ -1,16 +1,14 @@
 """Opens the page of `voxelcore core --html` in headless Chromium, without a network.
 usage: page_test.py VOXELCORE [FOLDER FOR SCREENSHOTS]    exit 77: no Chromium"""
-import json
 import os
 import re
 import shutil
 import sys
 import tempfile
 from pathlib import Path
-from urllib.parse import unquote
 
 from module_test_tools import check, run, two_blocks, write_nrrd
-from page_tools import model_of, pixels, state_of, visit
+from page_tools import model_of, pixels, probed, visit
 
 # What a user does, done by a script at the end of a copy of the page; what came of it stands in the body's data.
 PROBE = """<script>
@@ -95,17 +93,6 @@ PROBE = """<script>
 </script>"""
 
 
-def probed(page, folder, probe=PROBE, **how):
-    """What a probe found in a page."""
-    copy = folder / "probe.html"
-    copy.write_text(page.read_text().replace("</body>", probe + "</body>"))
-    state = state_of(visit(copy, folder, "--dump-dom", **how))
-    check(state.get("state") == "ready" and "found" in state, "the page did not come up: %s" % state)
-    found = json.loads(unquote(state["found"]))
-    check("error" not in found, "the probe failed: %s" % found)
-    return found
-
-
 # Solid surfaces from the front, nothing in them: how many pixels of one picture are the scale bar's, how many the
 # body's.
 MEASURE = """<script>
@@ -188,7 +175,7 @@ def main():
             sum(max(abs(a - b) for a, b in zip(p, last)) < 40 for p in middle) > 10,
             "thick parts do not have the map's last colour")
 
-        found = probed(page, folder)
+        found = probed(page, folder, PROBE)
         check(found["folded"] is False and found["view"] < 0.8, "the panel is folded where there is room")
         check(found["foldedAfter"] is True and found["viewAfter"] > 0.99 and found["panelAfter"] == 0,
               "the panel does not fold")
@@ -211,7 +198,7 @@ def main():
             re.search(r"\(3\)Radius [0-9.]+ mm", seen) and re.search(r"\(8\)Radius [0-9.]+ mm", seen) and "LPS" in seen,
             "under the pointer: %s" % seen[:300])
 
-        phone = probed(page, folder, size=(390, 844))
+        phone = probed(page, folder, PROBE, size=(390, 844))
         check(phone["folded"] is True and phone["view"] > 0.99, "the panel covers a phone: %s" % phone["view"])
         check(phone["expanded"] == "true" and phone["panelAfter"] > 200, "the panel does not open on a phone")
 

@@ -6,6 +6,7 @@ import struct
 import subprocess
 import sys
 import zlib
+from urllib.parse import unquote
 
 from module_test_tools import check
 
@@ -80,3 +81,14 @@ def model_of(text):
 def state_of(dom):
     """The data attributes of a page's body."""
     return dict(re.findall(r'data-([a-z-]+)="([^"]*)"', re.search(r"<body[^>]*>", dom).group(0)))
+
+
+def probed(page, folder, probe, **how):
+    """What a script at the end of a copy of the page has found: JSON in the body's data, by `found`."""
+    copy = folder / "probe.html"
+    copy.write_text(page.read_text().replace("</body>", probe + "</body>"))
+    state = state_of(visit(copy, folder, "--dump-dom", **how))
+    check(state.get("state") == "ready" and "found" in state, "the page did not come up: %s" % state)
+    found = json.loads(unquote(state["found"]))
+    check("error" not in found, "the probe failed: %s" % found)
+    return found

@@ -2,17 +2,15 @@
 tables. usage: roots_page_test.py VOXELCORE [FOLDER FOR SCREENSHOTS]    exit 77: no Chromium"""
 import csv
 import gzip
-import json
 import os
 import re
 import shutil
 import sys
 import tempfile
 from pathlib import Path
-from urllib.parse import unquote
 
 from module_test_tools import check, run
-from page_tools import model_of, pixels, state_of, visit
+from page_tools import model_of, pixels, probed, visit
 
 PROBE = """<script>
 (async function () {
@@ -73,12 +71,7 @@ def check_pages(program, scan, out, *words):
     counts = {int(row["level"]): int(row["count"]) for row in levels if row["level"].isdigit()}
 
     page = out / "roots.html"
-    copy = out / "probe.html"
-    copy.write_text(page.read_text().replace("</body>", PROBE + "</body>"))
-    state = state_of(visit(copy, out, "--dump-dom"))
-    check(state.get("state") == "ready" and "found" in state, "the page did not come up: %s" % state)
-    found = json.loads(unquote(state["found"]))
-    check("error" not in found, "the probe failed: %s" % found)
+    found = probed(page, out, PROBE)
     check(found["title"] == "Roots of " + scan.stem, "title %s" % found["title"])
     check(found["coloring"] == "Label" and found["range"] is True, "it opens by %s" % found["coloring"])
     check(found["colorings"] == ["Radius", "Level", "Branch"], "colourings %s" % found["colorings"])

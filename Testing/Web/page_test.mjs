@@ -1,6 +1,7 @@
 // The page of Applications/web in headless Chromium, against the native program.
 // usage: node page_test.mjs PROGRAM PACKAGE FOLDER PART    PACKAGE: of Applications/web/build.sh; FOLDER: to work in
-// PART: results, slices, wrong, labels, folders, cancel, offline, file or phone. Exit code 77: no Chromium, npm or package.
+// PART: results, slices, wrong, labels, folders, cancel, edits, offline, file or phone. Exit code 77: no Chromium, npm or
+// package.
 
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -602,6 +603,77 @@ const parts = {
     for (const name of ['libjs-three', 'fflate'])
       check((await licences.textContent()).includes(name), `no licence of ${name}`);
     await close(page);
+  },
+
+  async edits() {
+    // A bar with a branch; both are clicked.
+    const own = fs.mkdtempSync(path.join(folder, 'edits-'));
+    const name = path.join(own, 'tee.nrrd');
+    const [nx, ny, nz] = [60, 40, 16];
+    const voxels = Buffer.alloc(nx * ny * nz);
+    const tube = (a, b, radius) => Math.hypot(a, b) < radius;
+    for (let z = 0, at = 0; z < nz; ++z)
+      for (let y = 0; y < ny; ++y)
+        for (let x = 0; x < nx; ++x, ++at)
+          voxels[at] = (tube(y - 8, z - 8, 4.5) && x > 2 && x < 57) || (tube(x - 25, z - 8, 3.5) && y > 8 && y < 35) ? 1 : 0;
+    const head = `NRRD0004\ntype: uint8\ndimension: 3\nsizes: ${nx} ${ny} ${nz}\nspacings: 1 1 1\nencoding: raw\n\n`;
+    fs.writeFileSync(name, Buffer.concat([Buffer.from(head), voxels]));
+    for (const width of [1440, 390]) {
+      const page = await open(origin, { width });
+      await give(page, name);
+      await want(page, 'skeleton');
+      await compute(page);
+      const clickAt = async (place) => {
+        const frame = await viewer(page);
+        await page.locator('#viewer').scrollIntoViewIfNeeded();
+        const [x, y] = await frame.evaluate((at) => {
+          const box = Page.view.canvas.getBoundingClientRect();
+          const [right, down] = Page.view.pixelsOf(at.map((v, k) => v - Page.meshes.middle[k]), 0);
+          return [box.left + box.width / 2 + right, box.top + box.height / 2 + down];
+        }, place);
+        const box = await page.locator('#viewer').boundingBox();
+        await page.mouse.click(box.x + x + 1, box.y + y + 1); // it has a border
+        return frame;
+      };
+      let frame = await clickAt([25, 22, 8]);
+      check((await frame.locator('#edit-row').textContent()).includes('Branch'), 'no branch was chosen');
+      await frame.locator('#edit-choices [value=remove]').click();
+      await frame.locator('#edit-apply').click();
+      await page.waitForFunction(() => document.getElementById('said').textContent.startsWith('Computing'));
+      await page.waitForFunction(() => document.getElementById('said').textContent.startsWith('Done'));
+      check((await page.textContent('#certificate')).includes('certified'), 'no certificate');
+      frame = await viewer(page);
+      equal(await frame.evaluate(() => Page.model.labels[0].curves.numbers.length), 1, 'branches that are left');
+      equal(await frame.locator('#edit-list li').count(), 1, 'edits that are listed');
+
+      // Another, by keys; both are downloaded, and do the same in the program.
+      await frame.locator('#correct').evaluate((button) => button.click()); // a phone's panel is folded
+      await frame.locator('#edit-branch').fill('0');
+      await frame.locator('#edit-choices [value=cut]').focus();
+      await page.keyboard.press('Enter');
+      equal(await frame.locator('#edit-list li').count(), 2, 'edits after another');
+      const [saved] = await Promise.all([page.waitForEvent('download'), frame.locator('#edit-save').click()]);
+      await saved.saveAs(path.join(own, 'edits.csv'));
+      await shot(page, `edits-${width}`);
+      await frame.locator('#edit-apply').click();
+      await page.waitForFunction(() => document.getElementById('said').textContent.startsWith('Computing'));
+      await page.waitForFunction(() => document.getElementById('said').textContent.startsWith('Done'));
+      frame = await viewer(page);
+      equal(await frame.evaluate(() => Page.model.labels[0].curves.numbers.length), 2, 'branches after a cut');
+      const made = await filesOf(page);
+      execFileSync(
+        program,
+        ['skeleton', name, '-o', path.join(own, 'native.vtp'), '--edits', path.join(own, 'edits.csv'), '--force',
+          '--connectivity', 'joined'],
+        { stdio: 'pipe' },
+      );
+      check(
+        Buffer.compare(fs.readFileSync(path.join(own, 'native.vtp')), Buffer.from(made['tee_skeleton.vtp'])) === 0,
+        'the program makes another tree of the same edits',
+      );
+      await close(page);
+    }
+    fs.rmSync(own, { recursive: true });
   },
 
   async phone() {

@@ -52,6 +52,7 @@ const scripts = [
   [display, 'overlay.js'],
   [display, 'view.js'],
   [display, 'panel.js'],
+  [display, 'edits.js'],
   [here, 'threshold.js'],
   [here, 'place.js'],
 ]

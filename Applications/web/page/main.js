@@ -57,13 +57,21 @@ let viewerTemplate;
 let lengthColors;
 let results = {}; // files by name
 let drawn = []; // meshes of the result: {kind, mesh}
+let voxel = 0; // least spacing of the scan
+let edits = { all: [], table: '' }; // of its skeleton, made in the viewer
 
 const viewer = $('viewer');
-const slices = new Slices($('slices'), (place) => viewer.contentWindow?.postMessage({ place }, '*'));
+const slices = new Slices($('slices'), (place) => viewer.contentWindow?.postMessage({ place, isChosen: true }, '*'));
 window.addEventListener('message', ({ source, data }) => {
   if (source !== viewer.contentWindow) return;
   if (data.place) slices.goTo(data.place);
   if (data.ready && slices.scan) viewer.contentWindow.postMessage({ place: slices.place() }, '*');
+  if (data.ready) viewer.contentWindow.postMessage({ edits: edits.all }, '*');
+  if (data.edits) edits = { all: data.edits, table: data.table };
+  if (data.apply) {
+    $('want-skeleton').checked = true;
+    $('work').requestSubmit();
+  }
 });
 
 // ---- words ----
@@ -124,6 +132,7 @@ async function look() {
   $('run').disabled = true;
   labels = [];
   drawn = [];
+  edits = { all: [], table: '' };
   slices.hide();
   $('labels-part').hidden = $('diagnosis').hidden = $('words').hidden = true;
   $('words').open = false;
@@ -134,6 +143,7 @@ async function look() {
     const info = JSON.parse((await program(['info', '--json', ...asRead()], ['--', mainFile()], { signal })).text);
     ({ labels } = info);
     unit = info.spacing_mm ? 'mm' : 'vox';
+    voxel = Math.min(...info[`spacing_${unit}`]);
     $('what').textContent =
       `${info.format}, ${info.pixel_type}: ${info.size.join(' × ')} voxels of ` +
       `${info[`spacing_${unit}`].map((side) => number(side)).join(' × ')} ${unit}; ` +
@@ -182,8 +192,9 @@ async function showSlices(info, signal) {
   }
 }
 
+const editsFile = 'edits.csv';
 const given = () => files.map(({ name, data }) => [name, data]);
-const program = (before, after, how) => run([...before, ...after], given(), how);
+const program = (before, after, how, more = []) => run([...before, ...after], [...given(), ...more], how);
 
 $('words').addEventListener('toggle', async () => {
   if (!$('words').open) return;
@@ -318,8 +329,15 @@ $('work').addEventListener('submit', async (event) => {
   const start = performance.now();
   const base = baseOf(mainFile());
   const one = async (command) => {
+    const isEdited = command === 'skeleton' && edits.all.length > 0;
     const result = await program(
-      [command, ...outputs[command](base), ...chosenLabels(), ...form.argumentsOf(command)],
+      [
+        command,
+        ...outputs[command](base),
+        ...(isEdited ? ['--edits', editsFile] : []),
+        ...chosenLabels(),
+        ...form.argumentsOf(command),
+      ],
       ['--', mainFile()],
       {
         signal,
@@ -329,6 +347,7 @@ $('work').addEventListener('submit', async (event) => {
           $('stage').textContent = `${wanted[command]}: ${stage}`;
         },
       },
+      isEdited ? [[editsFile, new TextEncoder().encode(edits.table)]] : [],
     );
     return [command, result];
   };
@@ -435,7 +454,7 @@ async function show(made, base) {
   $('shown').hidden = false;
   slices.outline(drawn);
   if (drawn.length > 0) {
-    const about = { title: base, names, colors: labelColor, map: lengthColors };
+    const about = { title: base, names, colors: labelColor, map: lengthColors, voxel: curves?.endsWith('_skeleton.vtp') ? voxel : 0 };
     const page = pageOf(viewerTemplate, pageModel(drawn, about));
     viewer.srcdoc = page;
     $('offline').onclick = () => download(`${base}.html`, page, 'text/html').click();

@@ -185,10 +185,11 @@ function unitsOf(unit) {
 
 /**
  * @param {{kind: 'medial'|'curves', mesh: object}[]} meshes
- * @param {{title: string, names: Map<number, string>, colors: (label: number) => number[], map: string[]}} about
+ * @param {{title: string, names: Map<number, string>, colors: (label: number) => number[], map: string[], voxel: number}}
+ *   about voxel: least spacing of the scan; 0 where the curves are not edited
  * @returns {{json: string, numbers: string}} what stands in the elements `model` and `data` of the viewer's page
  */
-export function pageModel(meshes, { title, names, colors, map }) {
+export function pageModel(meshes, { title, names, colors, map, voxel }) {
   const numbers = new Numbers();
   const each = meshes.map(({ kind, mesh }) => ({ kind, mesh, lengths: lengthsOf(mesh), cells: cellsByLabel(mesh) }));
   const ranges = {};
@@ -262,7 +263,8 @@ export function pageModel(meshes, { title, names, colors, map }) {
         if (kind === 'curves') {
           const ids = mesh.cellArrays.BranchId;
           const first = mesh.verts.offsets.length - 1;
-          shown.names = cells.get(label).lines.map((i) => `branch ${ids ? ids[first + i] : i}`);
+          shown.numbers = cells.get(label).lines.map((i) => (ids ? ids[first + i] : i));
+          shown.names = shown.numbers.map((branch) => `branch ${branch}`);
         }
         made[kind] = shown;
       }
@@ -275,6 +277,7 @@ export function pageModel(meshes, { title, names, colors, map }) {
     title,
     anatomical: fields.SPACE?.[0] === 'LPS',
     byLabel: labels.length > 1,
+    voxel,
     groups: '',
     axes: [
       [1, 0, 0],

@@ -179,6 +179,7 @@ public:
                      { "byLabel", m_Options.byLabel },
                      { "groups", m_Options.groups },
                      { "axes", m_Options.axes },
+                     { "voxel", m_Options.voxel },
                      { "units", UnitsJson(m_Content.unit) },
                      { "bytes", m_Numbers.Bytes().size() },
                      { "adler32", Adler32(m_Numbers.Bytes()) },

@@ -15,6 +15,7 @@ VOXELCORE_EMBED(meshes, VOXELCORE_PAGE "/meshes.js")
 VOXELCORE_EMBED(overlay, VOXELCORE_PAGE "/overlay.js")
 VOXELCORE_EMBED(view, VOXELCORE_PAGE "/view.js")
 VOXELCORE_EMBED(panel, VOXELCORE_PAGE "/panel.js")
+VOXELCORE_EMBED(edits, VOXELCORE_PAGE "/edits.js")
 
 namespace voxelcore
 {
@@ -29,7 +30,8 @@ PageTexts()
                                     std::string_view(voxelcore_meshes, voxelcore_meshes_end),
                                     std::string_view(voxelcore_overlay, voxelcore_overlay_end),
                                     std::string_view(voxelcore_view, voxelcore_view_end),
-                                    std::string_view(voxelcore_panel, voxelcore_panel_end) } };
+                                    std::string_view(voxelcore_panel, voxelcore_panel_end),
+                                    std::string_view(voxelcore_edits, voxelcore_edits_end) } };
   return texts;
 }
 

@@ -12,7 +12,7 @@ struct PageTextSet
   std::string_view                page;    ///< HTML with marks @..@ where the others go
   std::string_view                style;   ///< CSS
   std::string_view                three;   ///< three.js
-  std::array<std::string_view, 5> scripts; ///< ours, in the order they run
+  std::array<std::string_view, 6> scripts; ///< ours, in the order they run
 };
 
 const PageTextSet &

@@ -414,6 +414,8 @@ DisplayFiles::Finish(const CoreReport & report, std::vector<std::string> & notes
     options.title = ScanName(m_State->input);
     options.triangles = m_State->targets.htmlTriangles;
     options.anatomical = HasPatientAxes(report.input);
+    const Vector3 & spacing = report.input.geometry.spacing;
+    options.voxel = *std::min_element(spacing.begin(), spacing.end());
     WriteHtml(m_State->transaction.Stage(*m_State->targets.html),
               m_State->Content(report, progress),
               options,

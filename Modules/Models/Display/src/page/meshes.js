@@ -59,9 +59,9 @@ if (Page) Page.meshes = (function () {
     return geometry;
   }
 
-  // Tubes around poly lines; per corner the point and the line it belongs to.
+  // Tubes around poly lines; per corner the point, the line it belongs to and the point's place among those of all lines.
   function tubes(mesh, points, radius, least) {
-    const sides = 10, at = [], owner = [], branch = [], index = [];
+    const sides = 10, at = [], owner = [], branch = [], entry = [], index = [];
     const lines = numbers(mesh.lines), offsets = numbers(mesh.offsets);
     const P = i => new THREE.Vector3(points[3 * i], points[3 * i + 1], points[3 * i + 2]);
     for (let l = 0; l + 1 < offsets.length; ++l) {
@@ -81,6 +81,7 @@ if (Page) Page.meshes = (function () {
           at.push(p.x, p.y, p.z);
           owner.push(lines[k]);
           branch.push(l);
+          entry.push(k);
           if (k > offsets[l]) {
             const t = (s + 1) % sides;
             index.push(first + s - sides, first + t - sides, first + s, first + s, first + t - sides, first + t);
@@ -88,7 +89,7 @@ if (Page) Page.meshes = (function () {
         }
       }
     }
-    return { points: Float32Array.from(at), owner: Uint32Array.from(owner), branch: Uint32Array.from(branch), index: Uint32Array.from(index) };
+    return { points: Float32Array.from(at), owner: Uint32Array.from(owner), branch: Uint32Array.from(branch), entry: Uint32Array.from(entry), index: Uint32Array.from(index) };
   }
 
   const whole = new THREE.Box3();
@@ -108,7 +109,8 @@ if (Page) Page.meshes = (function () {
     size = radius > 0 ? 2 * radius : 1;
   }
 
-  // kind; object; valuesAt(name): a number a corner, or null; branchAt: of curves with names, the branch of each corner
+  // kind; object; valuesAt(name): a number a corner, or null; of curves lineAt and entryAt: the line of each corner, and its
+  // point's place among those of all lines; branchAt: lineAt of curves with names
   const parts = [];
   function add(scene, label, kind, object, valuesAt) {
     object.userData = { label, kind, valuesAt };
@@ -144,11 +146,11 @@ if (Page) Page.meshes = (function () {
             const values = valuesOf(mesh, name);
             return values && Float32Array.from(tube.owner, i => values[i]);
           });
-          if (mesh.names) parts[parts.length - 1].userData.branchAt = tube.branch;
+          Object.assign(parts[parts.length - 1].userData, { lineAt: tube.branch, entryAt: tube.entry, branchAt: mesh.names && tube.branch });
         }
       }
     }
   }
 
-  return { build, parts, middle, size, dotPixels };
+  return { build, parts, middle, size, dotPixels, shape, material };
 })();

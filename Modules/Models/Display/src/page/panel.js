@@ -71,7 +71,7 @@ if (Page && Page.view) (function () {
   }
   $('ground').addEventListener('click', () => setGround(!state.dark));
 
-  // ---- the picture as a file ----
+  // ---- files: the picture ----
   let silence = 0;
   function say(sentence) {
     $('said').textContent = sentence;
@@ -79,15 +79,19 @@ if (Page && Page.view) (function () {
     clearTimeout(silence);
     silence = setTimeout(() => { $('said').hidden = true; }, 4000);
   }
+  function save(blob, ending) {
+    const link = document.createElement('a'), place = URL.createObjectURL(blob);
+    link.href = place;
+    link.download = model.title.replace(/[^\w.-]+/g, '_') + ending;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(place), 60000);
+    say('Saved as ' + link.download + '.');
+  }
+  Object.assign(Page, { say, save, fold });
   $('save').addEventListener('click', () => {
     view.picture().toBlob(blob => {
       if (!blob) return say('The browser gave no picture; make the window smaller.');
-      const link = document.createElement('a'), place = URL.createObjectURL(blob);
-      link.href = place;
-      link.download = model.title.replace(/[^\w.-]+/g, '_') + '.png';
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(place), 60000);
-      say('Saved as ' + link.download + '.');
+      save(blob, '.png');
     }, 'image/png');
   });
 

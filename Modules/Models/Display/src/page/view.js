@@ -21,7 +21,8 @@ if (Page) Page.view = (function () {
   meshes.build(scene);
   const parts = meshes.parts;
   const state = { width: 1, height: 1, mmPerPixel: 1, dark: false, moved: false, coloring: model.ranges.Thickness ? 'Thickness' : 'Radius', range: null, chosen: null,
-    opacity: { surface: 0.35, medial: 1, curves: 1 }, shown: { surface: true, medial: true, curves: true } };
+    opacity: { surface: 0.35, medial: 1, curves: 1 }, shown: { surface: true, medial: true, curves: true },
+    marked: null, covered: { left: 0, bottom: 0 } }; // a branch in a colour of its own, { label, line, color }; pixels that something hides
 
   // ---- colours ----
   const chosenRange = () => state.range || (model.ownRanges.includes(state.coloring) ? 'label' : 'middle'); // until one is chosen
@@ -36,14 +37,15 @@ if (Page) Page.view = (function () {
   named.reduce((first, label) => { label.firstBranch = first; return first + label.curves.names.length; }, 0);
   function paint() {
     for (const part of parts) {
-      const { label, kind, valuesAt, branchAt } = part.userData, colors = part.geometry.attributes.color.array;
+      const { label, kind, valuesAt, branchAt, lineAt } = part.userData, colors = part.geometry.attributes.color.array;
       const byLabel = state.coloring === 'Label', values = ranged() ? valuesAt(state.coloring) : null;
       const plain = byLabel ? label.color.map(c => 255 * c) : kind !== 'surface' ? [150, 150, 150]
         : state.dark ? [206, 214, 226] : [122, 133, 150];
       const [low, high] = !ranged() || kind === 'surface' ? [0, 0] : rangeOf(label), byBranch = state.coloring === 'Branch' && branchAt;
+      const marked = lineAt && state.marked && state.marked.label === label ? state.marked : null;
       for (let i = 0; 3 * i < colors.length; ++i) {
         const value = values ? values[i] : NaN;
-        const c = byBranch ? branchColor(label.firstBranch + branchAt[i]) : Number.isNaN(value) ? plain : mapColor(high > low ? (value - low) / (high - low) : 0.5);
+        const c = marked && lineAt[i] === marked.line ? marked.color : byBranch ? branchColor(label.firstBranch + branchAt[i]) : Number.isNaN(value) ? plain : mapColor(high > low ? (value - low) / (high - low) : 0.5);
         colors[3 * i] = c[0];
         colors[3 * i + 1] = c[1];
         colors[3 * i + 2] = c[2];
@@ -138,6 +140,8 @@ if (Page) Page.view = (function () {
     const small = state.width < 640;
     const edge = { left: 24, right: small ? 24 : 116, top: 28, bottom: small ? 84 : 48 };
     if (small) edge.top = ranged() ? 72 : 64;
+    edge.left = Math.max(edge.left, state.covered.left);
+    edge.bottom = Math.max(edge.bottom, state.covered.bottom);
     const wide = Math.max(state.width - edge.left - edge.right, 40), tall = Math.max(state.height - edge.top - edge.bottom, 40);
     const needed = Math.max((high[0] - low[0]) / wide, (high[1] - low[1]) / tall);
     state.mmPerPixel = needed > 0 ? needed : size / Math.min(wide, tall);
@@ -222,6 +226,7 @@ if (Page) Page.view = (function () {
     return [x - box.left - box.width / 2, y - box.top - box.height / 2];
   };
   let pressed = null;
+  const taps = []; // are told of clicks and taps
   canvas.addEventListener('pointerdown', event => {
     try { canvas.setPointerCapture(event.pointerId); } catch (error) { /* a pointer that is gone already */ }
     canvas.focus({ preventScroll: true });
@@ -246,7 +251,10 @@ if (Page) Page.view = (function () {
   for (const name of ['pointerup', 'pointercancel']) {
     canvas.addEventListener(name, event => {
       fingers.delete(event.pointerId);
-      if (pressed && name === 'pointerup') lookSoon(event.clientX, event.clientY); // a tap
+      if (pressed && name === 'pointerup') {
+        lookSoon(event.clientX, event.clientY);
+        if (event.button === 0) for (const tap of taps) tap(event.clientX, event.clientY, event.pointerType === 'touch');
+      }
       pressed = null;
     });
   }
@@ -272,32 +280,45 @@ if (Page) Page.view = (function () {
     if (!spot) setTimeout(() => { const [a, b] = spot; spot = null; look(a, b); }, 30);
     spot = [x, y];
   }
-  function hitAt(x, y) {
+  // What is seen at a place of the window, of the parts that are wanted.
+  function hitAt(x, y, isWanted = () => true) {
     const [right, down] = fromMiddle(x, y);
     ray.params.Points.threshold = 6 * state.mmPerPixel;
     ray.linePrecision = 4 * state.mmPerPixel;
     ray.setFromCamera(new THREE.Vector2(2 * right / state.width, -2 * down / state.height), camera);
-    const hits = ray.intersectObjects(parts.filter(part => part.visible && (!state.chosen || part.userData.label === state.chosen)));
+    const hits = ray.intersectObjects(parts.filter(part =>
+      part.visible && isWanted(part) && (!state.chosen || part.userData.label === state.chosen)));
     return hits.find(h => h.object.userData.kind !== 'surface') || hits[0];
+  }
+  function cornerOf(hit) {
+    const { attributes, index } = hit.object.geometry;
+    const corners = hit.face ? [hit.face.a, hit.face.b, hit.face.c] : hit.object.isPoints ? [hit.index] : [index.array[hit.index]];
+    const distance = corners.map(i => new THREE.Vector3().fromBufferAttribute(attributes.position, i).distanceTo(hit.point));
+    return corners[distance.indexOf(Math.min(...distance))];
+  }
+  // Of the point at `at` in an array, in pixels from the middle.
+  function pixelsOf(array, at) {
+    const { x, y } = new THREE.Vector3().fromArray(array, at).project(camera);
+    return [x * state.width / 2, -y * state.height / 2];
+  }
+  function placeText(shown) {
+    const digits = Math.max(1, Math.ceil(2 - Math.log10(size)));
+    const at = [0, 1, 2].map(k => model.axes.reduce((sum, a, i) => sum + a[k] * shown[i], 0));
+    const place = at.map(v => v.toFixed(Math.min(digits, 12))).join(', ');
+    return (model.anatomical ? 'LPS ' : 'x, y, z ') + place + ' ' + model.units[0].name;
   }
   function look(x, y) {
     const hit = hitAt(x, y), box = $('under');
     box.hidden = !hit;
     if (!hit) return;
-    const { label, kind, valuesAt, branchAt } = hit.object.userData, geometry = hit.object.geometry;
+    const { label, kind, valuesAt, branchAt } = hit.object.userData, nearest = cornerOf(hit);
     const lines = [label.name + (model.groups ? '' : ' (' + label.label + ')')];
-    const corners = hit.face ? [hit.face.a, hit.face.b, hit.face.c] : hit.object.isPoints ? [hit.index] : [geometry.index.array[hit.index]];
-    const distance = corners.map(i => new THREE.Vector3().fromBufferAttribute(geometry.attributes.position, i).distanceTo(hit.point));
-    const nearest = corners[distance.indexOf(Math.min(...distance))];
     if (branchAt) lines.push(label.curves.names[branchAt[nearest]]);
     for (const name of Object.keys(model.ranges)) {
       const values = kind === 'surface' ? null : valuesAt(name);
       if (values && !Number.isNaN(values[nearest])) lines.push(names[name] + ' ' + valueText(values[nearest], unitOf(name, values[nearest])));
     }
-    const shown = hit.point.toArray().map((v, k) => v + meshes.middle[k]), digits = Math.max(1, Math.ceil(2 - Math.log10(size)));
-    const at = [0, 1, 2].map(k => model.axes.reduce((sum, a, i) => sum + a[k] * shown[i], 0));
-    const place = at.map(v => v.toFixed(Math.min(digits, 12))).join(', ');
-    lines.push((model.anatomical ? 'LPS ' : 'x, y, z ') + place + ' ' + model.units[0].name);
+    lines.push(placeText(hit.point.toArray().map((v, k) => v + meshes.middle[k])));
     box.textContent = '';
     for (const line of lines) {
       const row = document.createElement('div');
@@ -307,5 +328,6 @@ if (Page) Page.view = (function () {
   }
 
   new ResizeObserver(resize).observe(stage);
-  return { state, parts, named, ranged, chosenRange, paint, showParts, fit, lookFrom, resize, draw, picture, hitAt, canvas };
+  return { state, scene, parts, named, ranged, chosenRange, paint, showParts, fit, lookFrom, resize, draw, picture, taps, hitAt, cornerOf, pixelsOf, fromMiddle, placeText,
+    sight: () => axis(2).negate(), canvas };
 })();

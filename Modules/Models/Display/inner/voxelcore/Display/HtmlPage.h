@@ -20,7 +20,8 @@ struct HtmlOptions
   std::string groups;             ///< what labels are to the reader ("Level"); their numbers are then not shown
   /** Axes of the content's space in the scan's, where they differ: places and directions are shown in the scan's. */
   std::array<std::array<double, 3>, 3> axes{ { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
-  std::string figures; ///< HTML shown below the labels, without scripts; the writer answers for it
+  double      voxel = 0; ///< least spacing of the scan, where branches can be edited for `skeleton --edits`; else 0
+  std::string figures;   ///< HTML shown below the labels, without scripts; the writer answers for it
 };
 
 /** Whether this build has the library that pages are made with (three.js). */
