@@ -103,7 +103,8 @@ def draw(folder, name, count, random):
         else:
             text, at = kind, here
         edits.append((at, text, f"name {number}" if kind == "name" else ""))
-    return edits
+    seen = set()  # who says a thing twice says it once
+    return [one for one in edits if not ((key := (*one[0], one[1])) in seen or seen.add(key))]
 
 
 def write(path, edits):

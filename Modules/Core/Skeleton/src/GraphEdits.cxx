@@ -13,7 +13,7 @@ namespace voxelcore
 {
 
 std::optional<BranchPoint>
-BranchAt(const SkeletonGraph & graph, const Vector3 & place)
+BranchAt(const SkeletonGraph & graph, const Vector3 & place, double atLeast)
 {
   std::optional<BranchPoint> found;
   double                     nearest = std::numeric_limits<double>::infinity();
@@ -23,7 +23,7 @@ BranchAt(const SkeletonGraph & graph, const Vector3 & place)
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       const double away = Distance(graph.positions[points[i]], place);
-      if (away < nearest && away <= std::max(SectionRadii(graph)[points[i]], graph.radius[points[i]]))
+      if (away < nearest && away <= std::max({ SectionRadii(graph)[points[i]], graph.radius[points[i]], atLeast }))
       {
         found = { branch, i };
         nearest = away;

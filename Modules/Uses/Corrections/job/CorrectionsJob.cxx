@@ -151,7 +151,11 @@ RowsOf(const SkeletonGraph & graph, std::vector<Said> & said)
 
 /** Gives the branches of the edited tree their names. */
 void
-Name(const std::vector<Said> & said, const std::vector<AnnotationRow> & rows, SkeletonPart & tree, EditedTree & edited)
+Name(const std::vector<Said> &          said,
+     const std::vector<AnnotationRow> & rows,
+     const ImageGeometry &              geometry,
+     SkeletonPart &                     tree,
+     EditedTree &                       edited)
 {
   for (std::size_t i = 0; i < said.size(); ++i)
   {
@@ -162,7 +166,7 @@ Name(const std::vector<Said> & said, const std::vector<AnnotationRow> & rows, Sk
     }
     tree.names.resize(tree.graph.BranchCount());
     std::string & misfit = edited.outcomes[i].misfit;
-    if (const auto branch = BranchAt(tree.graph, said[i].edit.place))
+    if (const auto branch = BranchMeant(tree.graph, geometry, said[i].edit.place))
     {
       tree.names[branch->branch] = name;
     }
@@ -294,7 +298,7 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
                  edited,
                  outcome.record.skeleton->topology,
                  LabelText(outcome.record.label, outcome.record.name));
-    Name(said, rows, *outcome.skeleton, edited);
+    Name(said, rows, geometry, *outcome.skeleton, edited);
   };
   CoreResult made = StageCoreJob(core, transaction, part, false, {}, &scan);
   result.report = std::move(made.report);

@@ -5,6 +5,7 @@
 #include "voxelcore/Shape/ShapeOperations.h"
 
 #include <map>
+#include <set>
 
 namespace voxelcore
 {
@@ -51,18 +52,22 @@ RequireEdits(const VoxelShape &        before,
 {
   std::map<Voxel, bool>       isIn; // of what is touched
   std::array<std::int64_t, 3> betti = counted.betti;
-  bool                        holds = edits.size() == edited.outcomes.size();
-  for (std::size_t i = 0; holds && i < edits.size(); ++i)
+  // Each once.
+  const std::set<std::size_t> all(edited.order.begin(), edited.order.end());
+  bool                        holds = edits.size() == edited.outcomes.size() && edits.size() == edited.order.size() &&
+               edits.size() == all.size() && (all.empty() || *all.rbegin() < edits.size());
+  for (std::size_t at = 0; holds && at < edits.size(); ++at)
   {
+    const std::size_t       i = edited.order[at];
     const TreeEdit::Kind    kind = edits[i].kind;
     const TreeEditOutcome & outcome = edited.outcomes[i];
     const bool              isAdded = kind == TreeEdit::Kind::Join || kind == TreeEdit::Kind::Path;
     holds = outcome.misfit.empty() ? IsChangeOf(kind, outcome.change) : outcome.voxels.empty();
     for (const Voxel & voxel : outcome.voxels)
     {
-      const auto at = isIn.try_emplace(voxel, IsIn(before, voxel)).first;
-      holds = holds && at->second != isAdded;
-      at->second = isAdded;
+      const auto was = isIn.try_emplace(voxel, IsIn(before, voxel)).first;
+      holds = holds && was->second != isAdded;
+      was->second = isAdded;
     }
     for (std::size_t k = 0; k < 3 && outcome.misfit.empty(); ++k)
     {

@@ -35,6 +35,13 @@ constexpr std::array<std::pair<TreeEdit::Kind, const char *>, 7> kWords{ { { Tre
                                                                            { TreeEdit::Kind::Background,
                                                                              "background" } } };
 
+/** In which kinds are done: each finds the body as it needs it. What is cut off is not removed with the rest, and paths
+ *  run where something was removed. */
+constexpr std::array<TreeEdit::Kind, 8> kOrder{ TreeEdit::Kind::Root, TreeEdit::Kind::None,
+                                                TreeEdit::Kind::Loop, TreeEdit::Kind::Background,
+                                                TreeEdit::Kind::Cut,  TreeEdit::Kind::Remove,
+                                                TreeEdit::Kind::Join, TreeEdit::Kind::Path };
+
 constexpr std::size_t kMostPlaces = 1000; // of a path that a person has drawn
 
 /** Radii out to which a cut goes: sections are seldom flatter than the first; the last keeps off what touches it. */
@@ -42,14 +49,15 @@ constexpr std::array<double, 3> kReach{ 2, 4, 1.4 };
 /** Parts of its radius, and voxel diagonals, that a line is thick: thicker where beside rough walls it leaves holes,
  *  then thinner where it touches others on its way. */
 constexpr std::array<std::pair<double, double>, 5> kThick{ { { 1, 0 }, { 1, 0.5 }, { 1, 1 }, { 0.5, 0 }, { 0, 0 } } };
-/** Voxel diagonals by which the place of a tip or cut may be off, whatever the radius: ends of thin branches move by
- *  voxels when a threshold does (for 2 % by up to three in a root one to two voxels thick). */
+/** Voxel diagonals by which the place of a branch, tip or cut may be off, whatever the radius: thin branches and their
+ *  ends move by voxels when a threshold does (for 2 % by up to three in a root one to two voxels thick). */
 constexpr double kOff = 1.5;
 
 constexpr double kRounding = 1e-9;
 
 const std::string kNoBranchThere = "no branch passes there";
 const std::string kNoTipThere = "no tip is there";
+const std::string kTearsOthers = "without it the body would fall apart, or its loops would change";
 const std::string kIsGone = "an edit before it has taken that off";
 
 struct LinePoint
@@ -110,7 +118,8 @@ class Editor
 {
 public:
   Editor(const VoxelShape & shape, const ImageGeometry & geometry, const MeasuredSkeleton & tree)
-    : m_Shape(shape)
+    : m_Before(shape)
+    , m_Shape(shape)
     , m_Betti(ComputeShapeTopology(shape).betti)
     , m_Geometry(geometry)
     , m_Graph(tree.graph)
@@ -133,7 +142,8 @@ public:
         m_Edited.outcomes[i].misfit = BeginAt(edits[i].place);
       }
     }
-    for (std::size_t i = 0; i < edits.size(); ++i)
+    m_Edited.order = OrderOf(edits);
+    for (const std::size_t i : m_Edited.order)
     {
       if (edits[i].kind != TreeEdit::Kind::Root)
       {
@@ -148,6 +158,27 @@ public:
   }
 
 private:
+  /** Numbers of edits, those first that come first. */
+  std::vector<std::size_t>
+  OrderOf(std::span<const TreeEdit> edits) const
+  {
+    std::vector<std::array<std::int64_t, 3>> keys;
+    for (std::size_t i = 0; i < edits.size(); ++i)
+    {
+      const auto kind = ranges::find(kOrder, edits[i].kind) - kOrder.begin();
+      const auto foot =
+        edits[i].kind == TreeEdit::Kind::Remove ? BranchMeant(m_Graph, m_Geometry, edits[i].place) : std::nullopt;
+      keys.push_back({ kind, foot ? -m_Table.branches[foot->branch].centrifugal : 0, static_cast<std::int64_t>(i) });
+    }
+    ranges::sort(keys);
+    std::vector<std::size_t> order;
+    for (const auto & key : keys)
+    {
+      order.push_back(static_cast<std::size_t>(key[2]));
+    }
+    return order;
+  }
+
   double
   Radius(ElementIndex point) const
   {
@@ -184,6 +215,25 @@ private:
     return found;
   }
 
+  /** Where a branch ends of which the tip was at a place off all branches: the nearest point. */
+  std::optional<ElementIndex>
+  EndNear(const Vector3 & place, double within) const
+  {
+    std::optional<ElementIndex> found;
+    if (!BranchMeant(m_Graph, m_Geometry, place))
+    {
+      for (const ElementIndex point : m_Graph.branchPoints)
+      {
+        if (const double away = Distance(m_Graph.positions[point], place); away <= within)
+        {
+          found = point;
+          within = away;
+        }
+      }
+    }
+    return found;
+  }
+
   Voxel
   VoxelAt(const Vector3 & place) const
   {
@@ -207,6 +257,14 @@ private:
   Contains(const Voxel & voxel) const
   {
     return m_Shape.Contains(voxel[0], voxel[1], voxel[2]);
+  }
+
+  /** Whether an edit before has taken the voxel at a place off. Lines of thin branches may run beside all voxels. */
+  bool
+  IsGone(const Vector3 & place) const
+  {
+    const Voxel voxel = VoxelAt(place);
+    return m_Before.Contains(voxel[0], voxel[1], voxel[2]) && !Contains(voxel);
   }
 
   bool
@@ -534,7 +592,7 @@ private:
     {
       return Join(edit);
     }
-    const auto foot = BranchAt(m_Graph, edit.place);
+    const auto foot = BranchMeant(m_Graph, m_Geometry, edit.place);
     if (!foot)
     {
       return kNoBranchThere;
@@ -543,7 +601,7 @@ private:
     {
       return "";
     }
-    if (!Contains(VoxelAt(PlaceOf(*foot))))
+    if (IsGone(PlaceOf(*foot)))
     {
       return kIsGone;
     }
@@ -618,19 +676,26 @@ private:
     {
       return RemovePiece({ {}, {}, VoxelAt(PlaceOf(foot)) });
     }
-    for (std::size_t i = 0; i < line.size(); ++i)
+    std::string misfit = "its base does not part from the body";
+    for (const double radii : kReach)
     {
-      const double slab = SlabWidth(DirectionAt(line, i)) / 2;
-      if (Distance(line[i].place, line[0].place) <= line[0].radius + slab)
+      for (std::size_t i = 0; i < line.size(); ++i)
       {
-        continue;
-      }
-      if (auto part = Part(line, i, kReach.front()))
-      {
-        return RemovePiece(std::move(*part));
+        const double from = line[0].radius + SlabWidth(DirectionAt(line, i)) / 2;
+        const double away = Distance(line[i].place, line[0].place);
+        auto         part = away > from ? Part(line, i, radii) : std::nullopt;
+        if (!part)
+        {
+          continue;
+        }
+        misfit = RemovePiece(std::move(*part));
+        if (misfit != kTearsOthers || away > from + line[0].radius)
+        {
+          return misfit;
+        }
       }
     }
-    return "its base does not part from the body";
+    return misfit;
   }
 
   /** Takes out the piece behind a slab; without one, that with the voxel. */
@@ -657,23 +722,35 @@ private:
     });
     Set(voxels, false);
     part.taken.insert(part.taken.end(), voxels.begin(), voxels.end());
-    return Keep(std::move(part.taken), false) ? "" : "without it the body would fall apart, or its loops would change";
+    return Keep(std::move(part.taken), false) ? "" : kTearsOthers;
   }
 
   std::string
   Join(const TreeEdit & edit)
   {
-    const auto one = TipAt(edit.place);
-    const auto other = TipAt(edit.further.at(0));
-    if (!one || !other)
+    const std::array<Vector3, 2> places{ edit.place, edit.further.at(0) };
+    std::vector<Vector3>         line;
+    double                       radius = m_Widest;
+    for (std::size_t i = 0; i < 2; ++i)
     {
-      return kNoTipThere;
+      const auto tip = TipAt(places[i]);
+      const auto end = tip ? tip : EndNear(places[i], Distance(places[0], places[1]));
+      if (!end)
+      {
+        return kNoTipThere;
+      }
+      line.push_back(m_Graph.positions[*end]);
+      radius = std::min(radius, m_Radii[*end]);
+      if (!tip)
+      {
+        line.insert(i == 0 ? line.end() : line.end() - 1, places[i]);
+      }
     }
-    if (*one == *other)
+    if (line.front() == line.back())
     {
       return "both places are at one tip";
     }
-    return Fill({ m_Graph.positions[*one], m_Graph.positions[*other] }, std::min(m_Radii[*one], m_Radii[*other]));
+    return Fill(line, radius);
   }
 
   std::string
@@ -698,7 +775,7 @@ private:
   {
     for (const Vector3 & end : { line.front(), line.back() })
     {
-      if (m_Kind == TreeEdit::Kind::Join && !Contains(VoxelAt(end)))
+      if (m_Kind == TreeEdit::Kind::Join && IsGone(end))
       {
         return kIsGone;
       }
@@ -719,6 +796,7 @@ private:
     return "its way touches other parts of the body: a loop or a cavity would come of it";
   }
 
+  const VoxelShape &          m_Before;
   VoxelShape                  m_Shape;
   Change                      m_Betti;
   const ImageGeometry &       m_Geometry;
@@ -825,6 +903,12 @@ EditTree(const VoxelShape &        shape,
          std::span<const TreeEdit> edits)
 {
   return Editor(shape, geometry, tree).Run(edits);
+}
+
+std::optional<BranchPoint>
+BranchMeant(const SkeletonGraph & graph, const ImageGeometry & geometry, const Vector3 & place)
+{
+  return BranchAt(graph, place, kOff * Length(geometry.spacing));
 }
 
 Vector3

@@ -144,10 +144,10 @@ struct BranchPoint
   std::size_t point = 0;
 };
 
-/** The branch at a place: of the points within whose radius (of the section, or of the ball where that is more) it lies
- *  the nearest, of equally near ones the first; none where there is none. */
+/** The branch at a place: of the points within whose radius (of the section, or of the ball where that is more, or
+ *  `atLeast`) it lies the nearest, of equally near ones the first; none where there is none. */
 std::optional<BranchPoint>
-BranchAt(const SkeletonGraph & graph, const std::array<double, 3> & place);
+BranchAt(const SkeletonGraph & graph, const std::array<double, 3> & place, double atLeast = 0);
 
 /** Takes off what hangs loose after cuts: branches whose tip is at a cut, and whose ball there stands out of the ball
  *  at their other end by less than `standOut` mm, the shortest first, until none is left. Gives their number. */

@@ -63,17 +63,22 @@ struct EditedTree
   std::optional<Vector3>       root;     ///< the place of a tip, where an edit says so
   std::vector<Vector3>         loops;    ///< places on loops that are real
   std::vector<TreeEditOutcome> outcomes; ///< one an edit
+  std::vector<std::size_t>     order;    ///< in which they were done
 };
 
-/** Does the edits that fit, one after the other; those left out change nothing. `tree` is that of the shape, its loops
- *  not cut. A place on a branch is one of BranchAt(), one at a tip lies within twice its radius, or within three voxel
- *  diagonals if that is more.
+/** Does the edits that fit, one after the other; those left out change nothing. First come names, root and loops, then
+ *  voxels, cuts, removals from the tips on inwards, joins, paths, of one kind in the order given: so none depends on
+ *  where it stands among others. `tree` is that of the shape, its loops not cut. A place on a branch is one of
+ *  BranchMeant(), one at a tip lies within twice its radius, or within three voxel diagonals if that is more.
  *
  *  - Cut: takes out the voxels of a slab across the branch, so thick that no two touch across it, which hang together
  *    with the place, out to twice the radius or, where that does not part the body, four or 1.4 times; where none of
  *    them does, of a slab a little before or behind, within the radius or one and a half voxel diagonals; and what is
  *    then loose and no larger.
- *  - Remove: cuts at the base, as soon as that parts, from the ball at the junction on, and takes out all behind.
+ *  - Remove: cuts at the base, as soon as that parts and tears nothing else, from the ball at the junction on, and takes
+ *    out all behind.
+ *  - Join: where an end has receded so far that no tip and no branch is at its place, the line runs on from there to the
+ *    nearest point of the tree, by at most the length of the gap.
  *  - Join, Path: put in the voxels within the radius of their lines; where that does not fit up to a voxel's diagonal
  *    more, which closes holes beside rough walls, or less, which keeps off other branches.
  *  - Background: takes out the voxel.
@@ -101,6 +106,11 @@ RequireEdits(const VoxelShape &        before,
              const EditedTree &        edited,
              const TopologyNumbers &   certified,
              const std::string &       name);
+
+/** The branch that a place means: BranchAt(), by one and a half voxel diagonals at least, by which thin branches move when
+ *  a threshold does. */
+std::optional<BranchPoint>
+BranchMeant(const SkeletonGraph & graph, const ImageGeometry & geometry, const Vector3 & place);
 
 /** Where an annotation of a branch is put: in the middle of its points. */
 Vector3
