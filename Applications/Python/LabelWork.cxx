@@ -10,6 +10,7 @@
 #include "voxelcore/Thickness/ThicknessCommand.h"
 #include "voxelcore/Report/ResultRecords.h"
 
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -447,12 +448,12 @@ MakeSkeletonOf(std::shared_ptr<const CoreOfLabel> core,
   return result;
 }
 
-std::shared_ptr<SkeletonOfLabel>
-MakeNetworkOf(const ArrayView &        array,
-              const ImageGeometry &    geometry,
-              const ParameterValues &  coreValues,
-              const ParameterValues &  skeletonValues,
-              const ProgressCallback & progress)
+namespace
+{
+
+/** By which the skeleton of an array is made as the program makes it of a scan. */
+CoreOptions
+OptionsOfSkeleton(const ParameterValues & coreValues, const ParameterValues & skeletonValues, bool network)
 {
   CoreOptions options = CoreOptionsWithoutFiles(coreValues);
   options.scan = "the array";
@@ -461,7 +462,7 @@ MakeNetworkOf(const ArrayView &        array,
     throw UsageError("lambda_, tolerance: give one; a skeleton has one core");
   }
   SkeletonRequest stage = SkeletonRequestFrom(skeletonValues);
-  stage.network = true;
+  stage.network = network;
   stage.refined = !options.refine.surface.empty();
   stage.lambda = options.lambdas.front();
   if (!options.tolerances.empty() && options.tolerances.front().value > 0)
@@ -470,14 +471,21 @@ MakeNetworkOf(const ArrayView &        array,
   }
   options.skeleton = stage;
   options.skeletonTargets.also = { "ma" }; // a skeleton here knows its core
-  ReadArray             read = Read(array, geometry, options, coreValues, progress);
-  const ImageGeometry & place = read.report.input.geometry;
-  auto                  result = std::make_shared<SkeletonOfLabel>();
-  StageSeconds          seconds;
-  const auto            shape = std::make_shared<const PackedShape>(Pack(read.edited.labels.front().label.shape));
-  const auto            take = [&](LabelOutcome outcome) {
-    std::vector<std::string> notes;
-    read.network->Take(outcome, stage, read.report, notes);
+  return options;
+}
+
+/** The skeleton of the only label of what was read; `look` sees it first. */
+std::shared_ptr<SkeletonOfLabel>
+SkeletonOfRead(ReadArray &                                 read,
+               const CoreOptions &                         options,
+               const std::function<void(LabelOutcome &)> & look,
+               const ProgressCallback &                    progress)
+{
+  auto         result = std::make_shared<SkeletonOfLabel>();
+  StageSeconds seconds;
+  const auto   shape = std::make_shared<const PackedShape>(Pack(read.edited.labels.front().label.shape));
+  const auto   take = [&](LabelOutcome outcome) {
+    look(outcome);
     CoreReport report = read.report;
     report.labels = { outcome.record };
     report.labels.front().skeleton.reset();
@@ -488,16 +496,74 @@ MakeNetworkOf(const ArrayView &        array,
     result->surface = std::move(surface);
     result->report = std::move(report);
     result->report.labels = { std::move(outcome.record) };
-    result->report.skeleton = stage;
+    result->report.skeleton = options.skeleton;
   };
-  ProcessLabels(read.edited.labels,
-                options,
-                place,
-                read.surface,
-                ReadBox(read.report),
-                PartOfProgress(progress, kEditEnds, 1),
-                take,
-                seconds);
+  const ImageGeometry & place = read.report.input.geometry;
+  ProcessLabels(read.edited.labels, options, place, read.surface, ReadBox(read.report), progress, take, seconds);
+  return result;
+}
+
+} // namespace
+
+std::shared_ptr<SkeletonOfLabel>
+MakeNetworkOf(const ArrayView &        array,
+              const ImageGeometry &    geometry,
+              const ParameterValues &  coreValues,
+              const ParameterValues &  skeletonValues,
+              const ProgressCallback & progress)
+{
+  const CoreOptions options = OptionsOfSkeleton(coreValues, skeletonValues, true);
+  ReadArray         read = Read(array, geometry, options, coreValues, progress);
+  const auto        look = [&](LabelOutcome & outcome) {
+    std::vector<std::string> notes;
+    read.network->Take(outcome, *options.skeleton, read.report, notes);
+  };
+  return SkeletonOfRead(read, options, look, PartOfProgress(progress, kEditEnds, 1));
+}
+
+std::shared_ptr<SkeletonOfLabel>
+MakeCorrectedOf(const ArrayView &        array,
+                const ImageGeometry &    geometry,
+                const ParameterValues &  coreValues,
+                const ParameterValues &  skeletonValues,
+                std::vector<Said>        said,
+                const ProgressCallback & progress)
+{
+  CoreOptions options = OptionsOfSkeleton(coreValues, skeletonValues, false);
+  ReadArray   read = Read(array, geometry, options, coreValues, progress);
+  if (read.edited.labels.size() != 1)
+  {
+    throw UsageError("edits: are of one body; choose with label=, and leave split_components out");
+  }
+  EditedLabel &         label = read.edited.labels.front();
+  const ImageGeometry & place = read.report.input.geometry;
+  std::erase_if(said, [&](const Said & one) {
+    return one.annotation.label.value_or(label.label.value) != label.label.value;
+  });
+  CertifiedRequest request = RequestOf(options, read.surface);
+  request.skeleton->branches.cutLoops = false; // edits name places on them, too
+  request.scan = ReadBox(read.report);
+  constexpr double      editsEnd = 0.5; // of the progress
+  const LabelOutcome    found = ProcessLabel(label, place, request, PartOfProgress(progress, kEditEnds, editsEnd));
+  const auto            rows = RowsOf(found.skeleton->graph, said);
+  const VoxelShape      before = label.label.shape;
+  std::vector<TreeEdit> edits;
+  for (const Said & one : said)
+  {
+    edits.push_back(one.edit);
+  }
+  EditedTree edited = EditBody(label, place, *found.skeleton, edits, options);
+  read.report.parameters.edits.change = options.edits.change;
+  const auto look = [&](LabelOutcome & outcome) {
+    RequireEdits(before, found.record.shape, edits, edited, outcome.record.skeleton->topology, "the array");
+    NameBranches(said, rows, place, *outcome.skeleton, edited);
+  };
+  auto result = SkeletonOfRead(read, options, look, PartOfProgress(progress, editsEnd, 1));
+  for (std::size_t i = 0; i < said.size(); ++i)
+  {
+    result->edits.push_back(
+      { edits[i].place, TreeEditText(edits[i]), said[i].annotation.name, edited.outcomes[i].misfit });
+  }
   return result;
 }
 

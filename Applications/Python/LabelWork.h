@@ -8,6 +8,7 @@
 #include "voxelcore/Models/MedialModel.h"
 #include "voxelcore/Models/SkeletonModel.h"
 #include "voxelcore/Compare/CompareCommand.h"
+#include "voxelcore/Corrections/LabelEdits.h"
 #include "voxelcore/Options/Requests.h"
 #include "voxelcore/Report/CoreReport.h"
 #include "voxelcore/Thickness/ThicknessFiles.h"
@@ -35,12 +36,22 @@ struct CoreOfLabel
 MedialModel
 ModelOf(const CoreOfLabel & core);
 
+/** What became of an edit of a tree. */
+struct ToldEdit
+{
+  std::array<double, 3> place{}; ///< LPS
+  std::string           edit;
+  std::string           name;
+  std::string           leftOut; ///< why; empty: it was done
+};
+
 /** A certified skeleton; the surface it was made of is kept for files that hold both. */
 struct SkeletonOfLabel
 {
   CoreReport                         report;
   SkeletonPart                       part;
   std::shared_ptr<const CoreOfLabel> surface;
+  std::vector<ToldEdit>              edits{}; ///< of the body, by its tree
 };
 
 /** Local thickness of the labels of an array; values i fastest, 0 outside. */
@@ -98,6 +109,15 @@ MakeNetworkOf(const ArrayView &        array,
               const ParameterValues &  coreValues,
               const ParameterValues &  skeletonValues,
               const ProgressCallback & progress);
+
+/** The skeleton of the only label, whose body is edited before. \throws as MakeCores() */
+std::shared_ptr<SkeletonOfLabel>
+MakeCorrectedOf(const ArrayView &        array,
+                const ImageGeometry &    geometry,
+                const ParameterValues &  coreValues,
+                const ParameterValues &  skeletonValues,
+                std::vector<Said>        said,
+                const ProgressCallback & progress);
 
 /** A finished skeleton cut and measured anew; `values` are options of `voxelcore measure`. \throws UsageError */
 std::shared_ptr<SkeletonOfLabel>

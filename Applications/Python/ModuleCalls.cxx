@@ -328,6 +328,44 @@ NetworkOfArray(const py::array &                            array,
   });
 }
 
+/** `edits`: a path (bytes), or tuples of a place (LPS), an edit, a name and a label or None. */
+std::shared_ptr<SkeletonOfLabel>
+CorrectedOfArray(const py::array &                            array,
+                 const std::optional<std::array<double, 3>> & spacing,
+                 const std::array<double, 3> &                origin,
+                 const std::array<double, 9> &                direction,
+                 const ParameterValues &                      coreValues,
+                 const ParameterValues &                      skeletonValues,
+                 const py::object &                           edits,
+                 const py::object &                           listener)
+{
+  const ArrayView     view = ViewOf(array);
+  const ImageGeometry geometry = PlacedGeometry(view, spacing, origin, direction);
+  std::vector<Said>   said;
+  if (py::isinstance<py::bytes>(edits))
+  {
+    said = ReadEdits(edits.cast<std::string>());
+  }
+  else
+  {
+    std::vector<Annotation> annotations;
+    for (const py::handle & given : edits)
+    {
+      const auto one = given.cast<py::tuple>();
+      annotations.push_back({ "row " + std::to_string(annotations.size()),
+                              {},
+                              one[0].cast<Vector3>(),
+                              one[1].cast<std::string>(),
+                              one[2].cast<std::string>(),
+                              one[3].cast<std::optional<std::int64_t>>() });
+    }
+    said = SaidIn(std::move(annotations), "edits");
+  }
+  return RunInOwnThread(ThreadsFrom(coreValues), listener, array, [=](const ProgressCallback & progress) {
+    return MakeCorrectedOf(view, geometry, coreValues, skeletonValues, said, progress);
+  });
+}
+
 /** Paths arrive as bytes, so that any file name will do. Work left behind may still hold the same temporary name. */
 void
 SaveCore(const std::shared_ptr<CoreOfLabel> & core,
@@ -471,6 +509,7 @@ voxelcore::DefineCalls(py::module_ & module)
   module.def("verify", &VerifyCore);
   module.def("skeleton", &SkeletonOfCore);
   module.def("network", &NetworkOfArray);
+  module.def("corrected", &CorrectedOfArray);
   module.def("save_core", &SaveCore);
   module.def("save_skeleton", &SaveSkeleton);
   module.def("save_swc", &SaveSwcFile);

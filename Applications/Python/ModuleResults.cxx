@@ -316,6 +316,21 @@ DefineSkeleton(py::module_ & module)
                              }
                              return py::array_t<std::int64_t>(static_cast<py::ssize_t>(labels.size()), labels.data());
                            })
+    .def_property_readonly("branch_names", [](const Handle & s) { return s->part.names; })
+    .def_property_readonly("edits",
+                           [](const Handle & s) {
+                             py::list edits;
+                             for (const auto & [place, edit, name, leftOut] : s->edits)
+                             {
+                               edits.append(py::dict(py::arg("x") = place[0],
+                                                     py::arg("y") = place[1],
+                                                     py::arg("z") = place[2],
+                                                     py::arg("edit") = edit,
+                                                     py::arg("name") = name,
+                                                     py::arg("left_out") = leftOut));
+                             }
+                             return edits;
+                           })
     .def_property_readonly("contacts", [](const Handle & s) { return ContactsOf(s->part); })
     .def_property_readonly("label", [](const Handle & s) { return s->part.label; })
     .def_property_readonly("component", [](const Handle & s) { return s->report.labels.front().component; })

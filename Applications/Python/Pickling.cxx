@@ -347,13 +347,20 @@ StateOf(const SkeletonOfLabel & skeleton)
   ArrayWriter          arrays;
   VisitGraph(part.graph, arrays);
   arrays(skeleton.report.labels.front().skeleton.value().cuts);
+  py::list edits;
+  for (const auto & [place, edit, name, leftOut] : skeleton.edits)
+  {
+    edits.append(py::make_tuple(place, edit, name, leftOut));
+  }
   return py::make_tuple(VoxelCoreVersion(),
                         StateOf(skeleton.report),
                         skeleton.surface ? py::object(StateOf(*skeleton.surface)) : py::object(py::none()),
                         part.label,
                         part.component,
                         part.name,
-                        arrays.Take());
+                        arrays.Take(),
+                        part.names,
+                        edits);
 }
 
 namespace
@@ -362,7 +369,7 @@ namespace
 std::shared_ptr<SkeletonOfLabel>
 SkeletonOf(const py::tuple & state)
 {
-  RequireState(state, 7);
+  RequireState(state, 9);
   auto skeleton = std::make_shared<SkeletonOfLabel>();
   skeleton->report = ReportFrom(state[1]);
   skeleton->surface = state[2].is_none() ? nullptr : CoreOf(state[2]);
@@ -375,7 +382,15 @@ SkeletonOf(const py::tuple & state)
   VisitGraph(part.graph, arrays);
   arrays(record.cuts);
   part.network = record.network;
-  RequireWhole(IsSkeleton(part.graph) && part.network.has_value() == !part.graph.labels.empty() &&
+  part.names = state[7].cast<std::vector<std::string>>();
+  for (const py::handle & given : state[8])
+  {
+    const auto one = given.cast<py::tuple>();
+    skeleton->edits.push_back(
+      { one[0].cast<Vector3>(), one[1].cast<std::string>(), one[2].cast<std::string>(), one[3].cast<std::string>() });
+  }
+  RequireWhole(IsSkeleton(part.graph) && (part.names.empty() || part.names.size() == part.graph.BranchCount()) &&
+               part.network.has_value() == !part.graph.labels.empty() &&
                std::all_of(record.cuts.begin(), record.cuts.end(), [](const LoopCut & cut) {
                  return std::isfinite(cut.position[0] + cut.position[1] + cut.position[2]) && cut.radius >= 0;
                }));

@@ -34,7 +34,7 @@ WITHOUT = {
     **dict.fromkeys(("blocks", "block", "block-size", "join", "memory"), "parts of scans that do not fit into memory"),
     "with-skeleton": "Core.skeleton()",
     "quiet": "nothing is printed",
-    **dict.fromkeys(("annotations", "edits"), "files that are filled in by hand"),
+    "annotations": "a file that is filled in by hand; Skeleton has the branches",
     **dict.fromkeys(("probability", "thresholds", "persistence"), "probability() is a function of its own"),
     "units": "columns() gives units",
     "sections": "tables and contours that the program writes beside its skeleton",

@@ -119,6 +119,10 @@ class Skeleton(_Result):
     @property
     def branch_labels(self) -> NDArray[numpy.int64]: ...
     @property
+    def branch_names(self) -> List[str]: ...
+    @property
+    def edits(self) -> List[Dict[str, Any]]: ...
+    @property
     def contacts(self) -> List[Dict[str, Any]]: ...
     @property
     def face_offsets(self) -> NDArray[numpy.uint64]: ...
@@ -220,6 +224,7 @@ def skeleton(
     cavities: Union[str, int] = ...,
     connectivity: Union[str, int] = ...,
     network: bool = ...,
+    edits: Any = ...,
     threads: int = ...,
     progress: _Progress = ...,
     **options: Any,

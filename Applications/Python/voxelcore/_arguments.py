@@ -2,6 +2,8 @@
 
 import difflib
 import inspect
+import operator
+import os
 import textwrap
 import typing
 
@@ -95,6 +97,27 @@ def join_pieces(options, connectivity):
 def root(where):
     """Where a hierarchy begins, as the command line takes it."""
     return where if isinstance(where, str) else ",".join(repr(value) for value in three("root", where))
+
+
+def edits(given):
+    """Edits of a tree: a path as bytes, or a list of (place, edit, name, label) of dicts or the rows of a DataFrame."""
+    if isinstance(given, (str, os.PathLike)):
+        return os.fsencode(given)
+    rows = given.to_dict("records") if hasattr(given, "to_dict") else list(given)
+
+    def field(row, name):  # an empty one of a DataFrame is NaN
+        value = row.get(name)
+        return "" if value is None or value != value else value
+
+    def made(number, row):
+        if not isinstance(row, dict):
+            raise ValueError(f"edits: row {number}: expected a dict of x, y, z, edit and name")
+        place = three(f"edits: row {number}: x, y, z", [row.get(axis) for axis in "xyz"])
+        label = field(row, "label")
+        return place, str(field(row, "edit")), str(field(row, "name")), None if label == "" else operator.index(label)
+
+    said = [row for row in rows if not isinstance(row, dict) or field(row, "edit") != "" or field(row, "name") != ""]
+    return [made(number, row) for number, row in enumerate(said)]
 
 
 def several(given):

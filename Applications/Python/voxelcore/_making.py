@@ -113,6 +113,7 @@ def skeleton(
     cavities="fill",
     connectivity="joined",
     network=False,
+    edits=None,
     threads=0,
     progress=None,
     **options,
@@ -140,6 +141,9 @@ def skeleton(
         Of an array: one skeleton of several labels taken as one body, such as the vessels of a circle of Willis. Each
         point has its label (point_labels), and branches are cut where labels meet (contacts). label says which labels;
         None: all but 0.
+    edits : path, DataFrame or iterable of dict, optional
+        Of an array: corrections by hand, as of --edits: a file, or rows with x, y, z (LPS), edit and name. The result's
+        edits says which were left out, and why.
     threads : int, default 0
         Processors to use; 0 means all.
     progress : callable, optional
@@ -178,8 +182,10 @@ def skeleton(
     )
     values["threads"] = str(int(threads))
     if isinstance(source, Core):
-        if of_array or network:
-            raise ValueError(f"{next(iter(of_array), 'network')}: is for arrays; the core was made already")
+        if of_array or network or edits is not None:
+            raise ValueError(
+                f"{next(iter(of_array), 'network' if network else 'edits')}: is for arrays; the core was made already"
+            )
         if connectivity != "joined":
             raise ValueError("connectivity: a core has that of its shape; give the array")
         if own.get("border", "closed") != "closed":
@@ -195,8 +201,11 @@ def skeleton(
     _arguments.join_pieces(of_array, connectivity)
     if cavities == "fill":
         of_array.setdefault("fill_cavities", True)
-    if network:
-        return _network_of(source, values, progress, threads=threads, **of_array)
+    if network and edits is not None:
+        raise ValueError("edits: are of one body; leave network out")
+    if network or edits is not None:
+        said = None if network else _arguments.edits(edits)
+        return _as_program(source, values, said, progress, threads=threads, **of_array)
     of_array.update(threads=threads, progress=_arguments.share(progress, 0, 0.5))
     whole = core(source, **of_array)
     if not isinstance(whole, Core):
@@ -204,9 +213,10 @@ def skeleton(
     return Skeleton(_voxelcore.skeleton(whole._data, values, _arguments.share(progress, 0.5, 1), True))
 
 
-def _network_of(
+def _as_program(
     array,
     values,
+    edits,
     progress,
     *,
     lambda_,
@@ -216,15 +226,19 @@ def _network_of(
     direction=None,
     axes=None,
     tolerance=None,
+    threshold=None,
     **options,
 ):
-    if isinstance(label, str) and label == "any":
+    """Of an edited label; without edits of a network."""
+    if edits is None and isinstance(label, str) and label == "any":
         raise ValueError("label='any': makes one label of all; for a network leave it out, or list labels")
     taken, of_core = _arguments.of_array(
-        "skeleton", _arguments.OF_CORE, options, array, spacing, axes, label, None, origin, direction
+        "skeleton", _arguments.OF_CORE, options, array, spacing, axes, label, threshold, origin, direction
     )
     of_core.update(_arguments.pruning(lambda_, tolerance, "voxel" if taken.spacing is None else "mm")[0])
     place = (taken.spacing, taken.origin or [0.0] * 3, taken.direction or [1.0, 0, 0, 0, 1, 0, 0, 0, 1])
+    if edits is not None:
+        return Skeleton(_voxelcore.corrected(taken.array, *place, of_core, values, edits, progress))
     return Skeleton(_voxelcore.network(taken.array, *place, of_core, values, progress))
 
 

@@ -74,6 +74,17 @@ class Skeleton(Result):
         return self._data.branch_labels
 
     @property
+    def branch_names(self):
+        """List of str, one a branch: names that edits gave, '' elsewhere. Empty where none has one."""
+        return self._data.branch_names
+
+    @property
+    def edits(self):
+        """List of dict: what skeleton(edits=...) was given, in the order of its table: x, y, z, edit, name, and left_out,
+        which says why an edit was left out, '' of one that was done."""
+        return self._data.edits
+
+    @property
     def contacts(self):
         """Of a network: the places where two labels touch, as dicts: labels, area (mm^2, of the voxel faces between
         them), faces, voxels, centre (LPS mm), and nodes, where their branches meet there."""

@@ -70,10 +70,14 @@ public:
         return at == columns.end() || at->second >= rows[row].fields.size() ? std::string()
                                                                             : rows[row].fields[at->second];
       };
-      Annotation one{ m_Where, {}, {}, field("edit"), Name(WithoutGuard(field("name"))) };
+      Annotation one{ m_Where, {}, {}, field("edit"), Name(WithoutGuard(field("name"))), {} };
       if (const std::string number = field(m_Kinds[0]); !number.empty())
       {
         one.number = Number(number);
+      }
+      if (const std::string label = field("label"); !label.empty())
+      {
+        one.label = Parsed<std::int64_t>(label, "value of a label");
       }
       if (!field("x").empty() || !field("y").empty() || !field("z").empty())
       {
@@ -104,6 +108,7 @@ public:
             {},
             Vector3{ sign * place.at(0).get<double>(), sign * place.at(1).get<double>(), place.at(2).get<double>() },
             point.value("description", ""),
+            {},
             {}
           };
           const std::string label = point.value("label", "");

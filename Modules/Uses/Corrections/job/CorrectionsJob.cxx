@@ -1,8 +1,8 @@
 #include "voxelcore/Corrections/CorrectionsJob.h"
+#include "voxelcore/Corrections/LabelEdits.h"
 
 #include "voxelcore/Base/Error.h"
 #include "voxelcore/Base/Library.h"
-#include "voxelcore/Base/ParseReal.h"
 #include "voxelcore/Base/Text.h"
 #include "voxelcore/Base/TextFields.h"
 #include "voxelcore/Jobs/CoreJobSteps.h"
@@ -10,15 +10,11 @@
 #include "voxelcore/Jobs/LabelVolumes.h"
 #include "voxelcore/Jobs/OutputNames.h"
 #include "voxelcore/Jobs/SkeletonFiles.h"
-#include "voxelcore/Lattice/Vectors.h"
-#include "voxelcore/Masks/VoxelChanges.h"
 #include "voxelcore/Models/TableColumns.h"
-#include "voxelcore/Report/Annotations.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,140 +37,16 @@ constexpr auto kColumns = std::to_array<Column>({
   { "name", "", "what you call it" },
 });
 
-/** A coordinate as a table has it, so that it is the same when it is read from there. */
-double
-AsInTables(double value)
-{
-  return ParseReal(ShortText(value, tableDigits)).value_or(value);
-}
-
-constexpr std::size_t kMostEdits = 10000; // that a person has made
-
-/** What a person says. */
-struct Said
-{
-  Annotation  annotation;
-  TreeEdit    edit;
-  std::size_t row = 0;
-};
-
-std::vector<Said>
-ReadEdits(const fs::path & path)
-{
-  const std::string kinds[]{ "branch", "junction" };
-  std::vector<Said> all;
-  for (Annotation & one : ReadAnnotations(path, kinds))
-  {
-    Said said{ std::move(one), {} };
-    try
-    {
-      said.edit = ParseTreeEdit(said.annotation.edit);
-    }
-    catch (const UsageError & error)
-    {
-      RefuseAnnotation(path, said.annotation, Printable(error.what(), 200));
-    }
-    if (said.edit.kind == TreeEdit::Kind::None && said.annotation.name.empty())
-    {
-      continue;
-    }
-    if (!said.annotation.place)
-    {
-      RefuseAnnotation(path, said.annotation, "has no place; give x, y and z");
-    }
-    if (all.size() == kMostEdits)
-    {
-      RefuseAnnotation(path,
-                       said.annotation,
-                       "there are more than " + std::to_string(kMostEdits) + " edits; give fewer");
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      said.edit.place[k] = AsInTables((*said.annotation.place)[k]);
-    }
-    all.push_back(std::move(said));
-  }
-  return all;
-}
-
 fs::path
 Beside(const fs::path & output, const char * ending)
 {
   return (output.parent_path() / output.stem()).string() + ending;
 }
 
-/** Rows of the branches and junctions, and behind them of what was said elsewhere. What was said with the place of a
- *  row, as that stands in a file, is the row's. Puts what was said in the order of rows, so that who reads these does
- *  the same in the same order. */
-std::vector<AnnotationRow>
-RowsOf(const SkeletonGraph & graph, std::vector<Said> & said)
+bool
+IsOfAnother(const Said & said, std::int64_t label)
 {
-  std::vector<AnnotationRow> rows;
-  for (std::size_t branch = 0; branch < graph.BranchCount(); ++branch)
-  {
-    const std::string number = std::to_string(branch);
-    rows.push_back({ "branch", number, number + ",", PlaceOfBranch(graph, branch), {}, {} });
-  }
-  for (std::size_t node = 0; node < graph.nodePoints.size(); ++node)
-  {
-    if (graph.nodeKinds[node] == NodeKind::Junction)
-    {
-      const std::string number = std::to_string(node);
-      rows.push_back({ "junction", number, "," + number, graph.positions[graph.nodePoints[node]], {}, {} });
-    }
-  }
-  std::map<Vector3, std::size_t> rowAt;
-  for (std::size_t row = 0; row < rows.size(); ++row)
-  {
-    Vector3 & place = rows[row].place;
-    std::transform(place.begin(), place.end(), place.begin(), AsInTables);
-    rowAt.try_emplace(place, row);
-  }
-  for (Said & one : said)
-  {
-    const auto at = rowAt.find(one.edit.place);
-    one.row = at == rowAt.end() ? rows.size() : at->second;
-    if (at == rowAt.end())
-    {
-      rows.push_back({ {}, {}, ",", one.edit.place, {}, {} });
-    }
-    else
-    {
-      rowAt.erase(at);
-    }
-    rows[one.row].edit = TreeEditText(one.edit);
-    rows[one.row].name = one.annotation.name;
-  }
-  ranges::stable_sort(said, {}, &Said::row);
-  return rows;
-}
-
-/** Gives the branches of the edited tree their names. */
-void
-Name(const std::vector<Said> &          said,
-     const std::vector<AnnotationRow> & rows,
-     const ImageGeometry &              geometry,
-     SkeletonPart &                     tree,
-     EditedTree &                       edited)
-{
-  for (std::size_t i = 0; i < said.size(); ++i)
-  {
-    const std::string & name = said[i].annotation.name;
-    if (name.empty() || rows[said[i].row].kind == "junction")
-    {
-      continue;
-    }
-    tree.names.resize(tree.graph.BranchCount());
-    std::string & misfit = edited.outcomes[i].misfit;
-    if (const auto branch = BranchMeant(tree.graph, geometry, said[i].edit.place))
-    {
-      tree.names[branch->branch] = name;
-    }
-    else if (misfit.empty() && said[i].edit.kind == TreeEdit::Kind::None)
-    {
-      misfit = "no branch passes there any more";
-    }
-  }
+  return said.annotation.label.value_or(label) != label;
 }
 
 /** One line for each edit that was left out. */
@@ -184,7 +56,7 @@ TellMisfits(const fs::path & path, const std::vector<Said> & said, const EditedT
   std::size_t done = 0;
   for (std::size_t i = 0; i < said.size(); ++i)
   {
-    const auto & [where, number, place, edit, name] = said[i].annotation;
+    const auto & [where, number, place, edit, name, label] = said[i].annotation;
     if (edited.outcomes[i].misfit.empty())
     {
       ++done;
@@ -239,6 +111,10 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
                      " labels; choose one with --labels, or take all as one with --binary");
   }
   EditedLabel &         label = scan.edited.labels.front();
+  if (const auto others = std::erase_if(said, [&](const Said & one) { return IsOfAnother(one, label.label.value); }))
+  {
+    result.notes.push_back(std::to_string(others) + " edits of other labels are passed over");
+  }
   const ImageGeometry & geometry = scan.volume.geometry;
   CertifiedRequest      request = RequestOf(core, MakeSurfaceSource(core.refine, core.scan, core.reading, scan.volume));
   RequireLengthsOf(making.input, geometry.unit, request);
@@ -257,33 +133,7 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
   std::vector<TreeEdit> edits;
   std::transform(said.begin(), said.end(), std::back_inserter(edits), [](const Said & one) { return one.edit; });
   (void)plan.Next("editing");
-  EditedTree edited = isOne ? EditedTree() : EditTree(before, geometry, *found->skeleton, edits);
-  if (edited.root)
-  {
-    core.skeleton->branches.root = { RootChoice::Kind::Point, *edited.root };
-  }
-  if (core.skeleton->branches.cutLoops)
-  {
-    core.skeleton->branches.realLoops = edited.loops;
-  }
-  VoxelChanges changes = ChangesBetween(before, edited.shape);
-  if (!changes.empty())
-  {
-    const ChangedShape changed = ChangeVoxels(before, changes);
-    label.edits = label.edits.value_or(EditRecord());
-    auto & record = label.edits->changed;
-    record = record.value_or(EditRecord::Filtered());
-    record->voxelsAdded += changed.voxelsAdded;
-    record->voxelsRemoved += changed.voxelsRemoved;
-    // Who reads the scan by what is recorded gets the same body.
-    if (core.edits.change)
-    {
-      changes.insert(changes.begin(), core.edits.change->begin(), core.edits.change->end());
-    }
-    core.edits.change = std::move(changes);
-    label.label.shape = edited.shape;
-    label.label.voxels = label.label.shape.CountVoxels();
-  }
+  EditedTree edited = isOne ? EditedTree() : EditBody(label, geometry, *found->skeleton, edits, core);
   JobContext part = context;
   part.progress = plan.Next();
   scan.done = [&](LabelOutcome & outcome) {
@@ -298,7 +148,7 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
                  edited,
                  outcome.record.skeleton->topology,
                  LabelText(outcome.record.label, outcome.record.name));
-    Name(said, rows, geometry, *outcome.skeleton, edited);
+    NameBranches(said, rows, geometry, *outcome.skeleton, edited);
   };
   CoreResult made = StageCoreJob(core, transaction, part, false, {}, &scan);
   result.report = std::move(made.report);
