@@ -358,9 +358,9 @@ StateOf(const SkeletonOfLabel & skeleton)
                         part.label,
                         part.component,
                         part.name,
-                        arrays.Take(),
                         part.names,
-                        edits);
+                        edits,
+                        arrays.Take());
 }
 
 namespace
@@ -378,12 +378,12 @@ SkeletonOf(const py::tuple & state)
   part.component = state[4].cast<std::int64_t>();
   part.name = state[5].cast<std::string>();
   SkeletonRecord & record = skeleton->report.labels.front().skeleton.value();
-  ArrayReader      arrays(state[6]);
+  ArrayReader      arrays(state[8]);
   VisitGraph(part.graph, arrays);
   arrays(record.cuts);
   part.network = record.network;
-  part.names = state[7].cast<std::vector<std::string>>();
-  for (const py::handle & given : state[8])
+  part.names = state[6].cast<std::vector<std::string>>();
+  for (const py::handle & given : state[7])
   {
     const auto one = given.cast<py::tuple>();
     skeleton->edits.push_back(

@@ -142,8 +142,8 @@ def skeleton(
         point has its label (point_labels), and branches are cut where labels meet (contacts). label says which labels;
         None: all but 0.
     edits : path, DataFrame or iterable of dict, optional
-        Of an array: corrections by hand, as of --edits: a file, or rows with x, y, z (LPS), edit and name. The result's
-        edits says which were left out, and why.
+        Of an array: corrections by hand, as in the program's tables of annotations: such a file, or rows with x, y, z
+        (LPS), edit and name. Skeleton.edits says which were left out, and why.
     threads : int, default 0
         Processors to use; 0 means all.
     progress : callable, optional

@@ -113,6 +113,29 @@ TEST_F(CorrectionsJob, EditsLastWhicheverFileTheyAreReadFrom)
   }
 }
 
+TEST_F(CorrectionsJob, InAFolderFilesHaveTheScansName)
+{
+  Write("a.nrrd");
+  Say("edits.csv", ",,30,18,6,cut,\n");
+  Run("a.nrrd", "e.vtp", { { "edits", At("edits.csv") } });
+  Run("a.nrrd", "new/folder/", { { "edits", At("edits.csv") } });
+  EXPECT_EQ(Bytes("new/folder/a_skeleton.vtp"), Bytes("e.vtp"));
+  EXPECT_EQ(Bytes("new/folder/a_skeleton_annotations.csv"), Bytes("e_annotations.csv"));
+}
+
+TEST_F(CorrectionsJob, AnEditThatNamesAnotherLabelIsPassedOver)
+{
+  Write("a.nrrd");
+  std::ofstream(At("edits.csv")) << "label,branch,x,y,z,edit,name\n1,,30,18,6,cut,\n2,,15,12,6,remove,\n";
+  const auto edited = Run("a.nrrd", "e.vtp", { { "edits", At("edits.csv") } });
+  EXPECT_EQ(edited.report.labels.at(0).shape.betti, (std::array<std::int64_t, 3>{ 2, 0, 0 }));
+  EXPECT_TRUE(LeftOut(edited).empty());
+  EXPECT_EQ(ranges::count(edited.notes, "1 edit of another label is passed over"), 1);
+  EXPECT_EQ(Bytes("e_annotations.csv").find("remove"), std::string::npos);
+  std::ofstream(At("bad.csv")) << "label,branch,x,y,z,edit,name\nleft,,30,18,6,cut,\n";
+  EXPECT_THROW(Run("a.nrrd", "f.vtp", { { "edits", At("bad.csv") } }), InputError);
+}
+
 TEST_F(CorrectionsJob, WhatIsRecordedGivesTheSameBody)
 {
   Write("a.nrrd");
@@ -268,7 +291,7 @@ TEST_F(CorrectionsJob, WhatCannotBeDoneIsRefusedBeforeAnythingIsWritten)
   Say("many.csv", many);
   expect("line 10002: there are more than 10000 edits", { { "edits", At("many.csv") } });
   expect("cannot read this file", { { "edits", At("none.csv") } });
-  expect("written as .vtp", { { "output", At("folder/") } });
+  expect("written as .vtp", { { "output", At("refused.csv") } });
   expect("leave out --network", { { "network", "true" } });
 }
 

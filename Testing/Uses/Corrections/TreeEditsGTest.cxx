@@ -213,6 +213,52 @@ TEST_F(TreeEdits, WhatDoesNotFitChangesNothing)
             "the hierarchy begins at another place already");
 }
 
+// The branch is removed whole, its twig or half of it are not left behind, whichever is said first.
+TEST_F(TreeEdits, WhatIsDoneDoesNotDependOnTheOrderOfEdits)
+{
+  std::vector<TreeEdit> edits{ { Kind::Remove, At(35, 35, 12) },
+                               { Kind::Cut, At(50, 12, 12) },
+                               { Kind::Cut, At(35, 30, 12) },
+                               { Kind::Path, At(20, 12, 12), { At(20, 40, 12) }, 1.0 } };
+  const EditedTree      expected = Edit(edits);
+  EXPECT_EQ(MisfitsOf(expected), (std::vector<std::string>(4)));
+  std::sort(edits.begin(), edits.end(), [](const TreeEdit & a, const TreeEdit & b) { return a.place < b.place; });
+  do
+  {
+    const EditedTree edited = Edit(edits);
+    EXPECT_EQ(MisfitsOf(edited), (std::vector<std::string>(4)));
+    EXPECT_EQ(edited.shape.CountVoxels(), expected.shape.CountVoxels());
+    EXPECT_EQ(BettiOf(edited.shape), BettiOf(expected.shape));
+    EXPECT_NO_THROW(RequireEdits(m_Shape,
+                                 ComputeShapeTopology(m_Shape),
+                                 edits,
+                                 edited,
+                                 ComputeShapeTopology(edited.shape),
+                                 "a body"));
+  } while (std::next_permutation(edits.begin(), edits.end(), [](const TreeEdit & a, const TreeEdit & b) {
+    return a.place < b.place;
+  }));
+}
+
+TEST_F(TreeEdits, AnEndThatHasRecededIsJoinedThroughThePlaceWhereItWas)
+{
+  // A bar apart from the trunk; the twig that led towards it is gone.
+  const VoxelShape       apart = ShapeWhere({ 70, 60, 24 }, [&](int x, int y, int z) {
+    return m_Shape.Contains(x, y, z) || (std::hypot(x - 20.0, z - 12.0) < 3.5 && y >= 34 && y < 56);
+  });
+  const MeasuredSkeleton tree = TreeOf(apart);
+  const auto             join = [&](const Vector3 & from) {
+    return EditTree(apart, m_Geometry, tree, std::vector<TreeEdit>{ { Kind::Join, from, { At(20, 34, 12) } } });
+  };
+  const EditedTree joined = join(At(20, 22, 12)); // ten voxels off the trunk's line, twelve off the bar
+  EXPECT_EQ(joined.outcomes.at(0).misfit, "");
+  EXPECT_EQ(BettiOf(joined.shape), (Betti{ 1, 0, 0 }));
+  EXPECT_EQ(joined.outcomes.at(0).change, (Betti{ -1, 0, 0 }));
+  EXPECT_EQ(join(At(20, 31, 12)).outcomes.at(0).misfit, "both places are at one tip");
+  EXPECT_EQ(join(At(20, 12, 12)).outcomes.at(0).misfit, "no tip is there"); // a branch passes there
+  EXPECT_EQ(join(At(60, 50, 12)).outcomes.at(0).misfit, ""); // the branch's tip is nearer than the gap is long
+}
+
 TEST_F(TreeEdits, ACheckRefusesABodyOrATreeThatIsNotThatOfTheEdits)
 {
   const std::vector<TreeEdit> edits{ { Kind::Cut, At(35, 30, 12) },
@@ -251,6 +297,11 @@ TEST_F(TreeEdits, ACheckRefusesABodyOrATreeThatIsNotThatOfTheEdits)
   EXPECT_TRUE(refuses(seeded, after));
   seeded = edited;
   seeded.shape = m_Shape;
+  EXPECT_TRUE(refuses(seeded, after));
+  seeded = edited;
+  seeded.order = { 0, 1, 1 };
+  EXPECT_TRUE(refuses(seeded, after));
+  seeded.order = { 0, 1, 3 };
   EXPECT_TRUE(refuses(seeded, after));
   seeded = edited;
   seeded.outcomes.pop_back();

@@ -163,6 +163,16 @@ CoreOptionsOf(const SkeletonOptions & options)
   return core;
 }
 
+void
+NameInFolder(SkeletonOptions & options, OutputTransaction & transaction)
+{
+  if (IsFolderOutput(options.output))
+  {
+    transaction.MakeDirectory(options.output);
+    options.output = SkeletonTablesPath(options.output, options.input);
+  }
+}
+
 SkeletonResult
 RunSkeletonJob(const SkeletonOptions & options, const JobContext & context)
 {

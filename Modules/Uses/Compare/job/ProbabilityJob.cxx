@@ -325,12 +325,14 @@ ParseThresholds(std::string_view text)
 }
 
 ProbabilityResult
-RunProbabilityJob(const ProbabilityOptions & options, const JobContext & given)
+RunProbabilityJob(const ProbabilityOptions & asked, const JobContext & given)
 {
+  ProbabilityOptions      options = asked;
   const JobContext        context = ForwardOnly(given);
   const SkeletonOptions & making = options.making;
   ProbabilityResult       result;
   OutputTransaction       transaction(making.force, context.temporaries);
+  NameInFolder(options.making, transaction);
   CheckTargetsOf(options, transaction);
   StagePlan            plan(context.progress, { 0.05, 0.75, 0.05, 0.15 });
   const ProbabilityMap map = ReadMap(options, plan.Next("reading"));

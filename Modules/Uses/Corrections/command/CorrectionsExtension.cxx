@@ -29,9 +29,9 @@ constexpr auto kCorrectionsRows = std::to_array<Parameter>({
     "",
     false,
     Group::Skeleton,
-    "Edit the body as OUT_annotations.csv or .mrk.json of an earlier run says, filled in by hand: cut, remove, join X "
-    "Y Z, path X Y Z; .., root, loop, background",
-    "-" },
+    "Edit the body as OUT_annotations.csv or .mrk.json of an earlier run, or a page of --html, says: cut, remove, join "
+    "X Y Z, path X Y Z; .., root, loop, background",
+    "edits" },
 });
 
 } // namespace table

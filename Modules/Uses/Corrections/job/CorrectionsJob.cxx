@@ -72,8 +72,9 @@ TellMisfits(const fs::path & path, const std::vector<Said> & said, const EditedT
 } // namespace
 
 SkeletonResult
-RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
+RunCorrectionsJob(const CorrectionsOptions & asked, const JobContext & given)
 {
+  CorrectionsOptions      options = asked;
   const JobContext        context = ForwardOnly(given);
   const SkeletonOptions & making = options.making;
   if (IsFinishedCore(making.input, making.reading, making.resolution))
@@ -81,14 +82,15 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
     throw UsageError("--edits, --annotations: need a scan, but " + making.input.string() +
                      " is a medial surface; give the scan");
   }
+  OutputTransaction transaction(making.force, context.temporaries);
+  NameInFolder(options.making, transaction);
   if (making.output.extension() != ".vtp")
   {
     throw UsageError(making.output.string() + ": with --edits or --annotations a skeleton is written as .vtp");
   }
-  OutputTransaction transaction(making.force, context.temporaries);
-  CoreOptions       core = CoreOptionsOf(making);
-  const fs::path    table = Beside(making.output, "_annotations.csv");
-  const fs::path    markups = Beside(making.output, "_annotations.mrk.json");
+  CoreOptions    core = CoreOptionsOf(making);
+  const fs::path table = Beside(making.output, "_annotations.csv");
+  const fs::path markups = Beside(making.output, "_annotations.mrk.json");
   CheckCoreTargets(core, transaction);
   {
     const SkeletonFiles files(making.output, making.input, making.targets, transaction);
@@ -110,11 +112,8 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
     throw UsageError(making.input.string() + ": " + std::to_string(scan.edited.labels.size()) +
                      " labels; choose one with --labels, or take all as one with --binary");
   }
-  EditedLabel &         label = scan.edited.labels.front();
-  if (const auto others = std::erase_if(said, [&](const Said & one) { return IsOfAnother(one, label.label.value); }))
-  {
-    result.notes.push_back(std::to_string(others) + " edits of other labels are passed over");
-  }
+  EditedLabel & label = scan.edited.labels.front();
+  const auto    others = std::erase_if(said, [&](const Said & one) { return IsOfAnother(one, label.label.value); });
   const ImageGeometry & geometry = scan.volume.geometry;
   CertifiedRequest      request = RequestOf(core, MakeSurfaceSource(core.refine, core.scan, core.reading, scan.volume));
   RequireLengthsOf(making.input, geometry.unit, request);
@@ -154,6 +153,11 @@ RunCorrectionsJob(const CorrectionsOptions & options, const JobContext & given)
   result.report = std::move(made.report);
   result.warnings = std::move(made.warnings);
   result.notes = std::move(made.notes);
+  if (others > 0)
+  {
+    result.notes.push_back(others == 1 ? "1 edit of another label is passed over"
+                                       : std::to_string(others) + " edits of other labels are passed over");
+  }
   if (options.edits)
   {
     TellMisfits(*options.edits, said, edited, result);

@@ -197,8 +197,9 @@ private:
     return m_Graph.positions[m_Graph.Branch(foot.branch)[foot.point]];
   }
 
+  /** The tip at a place, other than one. */
   std::optional<ElementIndex>
-  TipAt(const Vector3 & place) const
+  TipAt(const Vector3 & place, const std::optional<ElementIndex> & other = {}) const
   {
     std::optional<ElementIndex> found;
     double                      nearest = std::numeric_limits<double>::infinity();
@@ -206,7 +207,7 @@ private:
     {
       const ElementIndex point = m_Graph.nodePoints[node];
       const double       away = Distance(m_Graph.positions[point], place);
-      if (m_Graph.nodeKinds[node] == NodeKind::Tip && away <= 2 * Slack(point) && away < nearest)
+      if (m_Graph.nodeKinds[node] == NodeKind::Tip && point != other && away <= 2 * Slack(point) && away < nearest)
       {
         nearest = away;
         found = point;
@@ -215,16 +216,27 @@ private:
     return found;
   }
 
-  /** Where a branch ends of which the tip was at a place off all branches: the nearest point. */
+  /** Where a branch ends of which the tip was at a place off all branches: the nearest point. The branch of another tip
+   *  does not count. */
   std::optional<ElementIndex>
-  EndNear(const Vector3 & place, double within) const
+  EndNear(const Vector3 & place, double within, const std::optional<ElementIndex> & other) const
   {
     std::optional<ElementIndex> found;
-    if (!BranchMeant(m_Graph, m_Geometry, place))
+    for (std::size_t branch = 0; branch < m_Graph.BranchCount(); ++branch)
     {
-      for (const ElementIndex point : m_Graph.branchPoints)
+      const auto points = m_Graph.Branch(branch);
+      if (points.front() == other || points.back() == other)
       {
-        if (const double away = Distance(m_Graph.positions[point], place); away <= within)
+        continue;
+      }
+      for (const ElementIndex point : points)
+      {
+        const double away = Distance(m_Graph.positions[point], place);
+        if (away <= Slack(point))
+        {
+          return std::nullopt;
+        }
+        if (away <= within)
         {
           found = point;
           within = away;
@@ -731,13 +743,22 @@ private:
     const std::array<Vector3, 2> places{ edit.place, edit.further.at(0) };
     std::vector<Vector3>         line;
     double                       radius = m_Widest;
+    // Of two places at one tip, where another has receded, it is at the nearer one.
+    std::array<std::optional<ElementIndex>, 2> tips{ TipAt(places[0]), TipAt(places[1]) };
+    const bool                                 isOne = tips[0] && tips[0] == tips[1];
+    if (isOne)
+    {
+      const Vector3 &   at = m_Graph.positions[*tips[0]];
+      const std::size_t farther = Distance(at, places[0]) > Distance(at, places[1]) ? 0 : 1;
+      tips[farther] = TipAt(places[farther], tips[0]);
+    }
     for (std::size_t i = 0; i < 2; ++i)
     {
-      const auto tip = TipAt(places[i]);
-      const auto end = tip ? tip : EndNear(places[i], Distance(places[0], places[1]));
+      const auto tip = tips[i];
+      const auto end = tip ? tip : EndNear(places[i], Distance(places[0], places[1]), tips[1 - i]);
       if (!end)
       {
-        return kNoTipThere;
+        return isOne ? "both places are at one tip" : kNoTipThere;
       }
       line.push_back(m_Graph.positions[*end]);
       radius = std::min(radius, m_Radii[*end]);
@@ -745,10 +766,6 @@ private:
       {
         line.insert(i == 0 ? line.end() : line.end() - 1, places[i]);
       }
-    }
-    if (line.front() == line.back())
-    {
-      return "both places are at one tip";
     }
     return Fill(line, radius);
   }

@@ -311,6 +311,7 @@ if (Page && Page.view) Page.edits = (function () {
     if (!isOpen()) open(true);
   });
   trees.forEach((label, i) => $('edit-label').add(new Option(label.name, i)));
+  if (trees.length > 1) $('edit-how').querySelector('code').textContent = 'voxelcore skeleton SCAN --labels N --edits FILE -o OUT.vtp';
   for (const element of document.querySelectorAll('.edit-label')) element.hidden = trees.length < 2;
   const middleOf = (label, branch) => ({ label, branch, at: sizeOf({ label, branch }) >> 1 });
   $('edit-label').addEventListener('change', () => choose(middleOf(trees[$('edit-label').value], 0)));

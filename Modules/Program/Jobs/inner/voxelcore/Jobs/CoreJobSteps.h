@@ -20,6 +20,11 @@ CheckCoreTargets(const CoreOptions & options, OutputTransaction & transaction);
 CoreOptions
 CoreOptionsOf(const SkeletonOptions & options);
 
+/** Of a job that writes one skeleton and files beside it: a folder is made, and the skeleton gets the name that the
+ *  folder's tables have. */
+void
+NameInFolder(SkeletonOptions & options, OutputTransaction & transaction);
+
 /** A scan that was read, and its labels as `options.edits` says, or as they were edited further. */
 struct ScanAtHand
 {
