@@ -160,7 +160,8 @@ def check_tree(program, folder, shots):
         edited = rows(folder / "e_branches.csv")
         check(not any(abs(float(row["coord_dst_x"]) - 15) < 2 and float(row["coord_dst_y"]) > 10 for row in edited),
               "the branch is still there")
-        check("'=1, \"A\"" in [row["branch_name"] for row in edited], "no branch has the name: %s" % [row["branch_name"] for row in edited])
+        names = [row["branch_name"] for row in edited]
+        check("'=1, \"A\"" in names, "no branch has the name: %s" % names)
         if shots:
             visit(folder / "probe.html", folder, "--screenshot=%s" % (shots / ("edits-%d.png" % size[0])), size=size)
 

@@ -43,7 +43,8 @@ def program(tmp_path_factory, tree):
 
 def forms(path):
     pandas = pytest.importorskip("pandas")
-    return {"dicts": EDITS, "a path": path, "a table": pandas.read_csv(path), "a table of dicts": pandas.DataFrame(EDITS)}
+    tables = {"a table": pandas.read_csv(path), "a table of dicts": pandas.DataFrame(EDITS)}
+    return {"dicts": EDITS, "a path": path, **tables}
 
 
 @pytest.mark.parametrize("form", ["dicts", "a path", "a table", "a table of dicts"])

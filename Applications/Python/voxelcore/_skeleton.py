@@ -80,8 +80,8 @@ class Skeleton(Result):
 
     @property
     def edits(self):
-        """List of dict: what skeleton(edits=...) was given, in the order of its table: x, y, z, edit, name, and left_out,
-        which says why an edit was left out, '' of one that was done."""
+        """List of dict: what skeleton(edits=...) was given, in the order of its table: x, y, z, edit, name and
+        left_out, which says why an edit was left out, and is '' of one that was done."""
         return self._data.edits
 
     @property

@@ -454,7 +454,8 @@ async function show(made, base) {
   $('shown').hidden = false;
   slices.outline(drawn);
   if (drawn.length > 0) {
-    const about = { title: base, names, colors: labelColor, map: lengthColors, voxel: curves?.endsWith('_skeleton.vtp') ? voxel : 0 };
+    const isEdited = curves?.endsWith('_skeleton.vtp'); // roots are edited by another table
+    const about = { title: base, names, colors: labelColor, map: lengthColors, voxel: isEdited ? voxel : 0 };
     const page = pageOf(viewerTemplate, pageModel(drawn, about));
     viewer.srcdoc = page;
     $('offline').onclick = () => download(`${base}.html`, page, 'text/html').click();

@@ -92,11 +92,13 @@ TEST(PageModel, NoNameEndsTheScriptOrTheJson)
   HtmlOptions options;
   options.title = hostile;
   options.groups = hostile;
+  options.voxel = 0.5;
   const std::string text = MakePageModel(content, options).json;
   EXPECT_EQ(text.find('<'), std::string::npos);
   const Json page = Json::parse(text);
   EXPECT_EQ(page.at("title"), hostile);
   EXPECT_EQ(page.at("groups"), hostile);
+  EXPECT_EQ(page.at("voxel"), 0.5);
   EXPECT_EQ(page.at("labels")[0].at("name"), hostile);
   EXPECT_EQ(page.at("labels")[1].at("name"), "no UTF-8: \xEF\xBF\xBD");
 }

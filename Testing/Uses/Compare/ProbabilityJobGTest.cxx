@@ -105,6 +105,17 @@ TEST_F(ProbabilityJob, EachThresholdHasATreeAndTheChosenOneKeepsWhatIsStable)
   EXPECT_EQ(tree.parts[0].graph.BranchCount(), result.thresholds[1].branches);
 }
 
+TEST_F(ProbabilityJob, InAFolderFilesHaveTheMapsName)
+{
+  Write("map.nrrd", 0.55F);
+  Run("map.nrrd", "t.vtp", { { "thresholds", "0.5,0.7" } });
+  Run("map.nrrd", "folder/", { { "thresholds", "0.5,0.7" } });
+  for (const std::string ending : { ".vtp", "_threshold-0.5.vtp", "_threshold-0.7.vtp", "_thresholds.csv" })
+  {
+    EXPECT_EQ(Bytes("folder/map_skeleton" + ending), Bytes("t" + ending)) << ending;
+  }
+}
+
 TEST_F(ProbabilityJob, EndsAndPiecesThatAreNotStableAreLeftOut)
 {
   Write("map.nrrd", 0.55F);

@@ -71,7 +71,7 @@ if (Page && Page.view) (function () {
   }
   $('ground').addEventListener('click', () => setGround(!state.dark));
 
-  // ---- files: the picture ----
+  // ---- files; the picture ----
   let silence = 0;
   function say(sentence) {
     $('said').textContent = sentence;

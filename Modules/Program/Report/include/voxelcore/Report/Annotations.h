@@ -23,11 +23,11 @@ struct Annotation
   std::optional<Vector3>      place;  ///< LPS
   std::string                 edit;   ///< as given
   std::string                 name;
-  std::optional<std::int64_t> label; ///< in the column `label` of a table: it is said of that label alone
+  std::optional<std::int64_t> label; ///< of which alone it is said; only tables have it
 };
 
-/** Of a .csv (columns `kinds[0]`, which has the number, x, y, z, edit, name, label; others are passed over) or of a point list
- *  of Slicer (.mrk.json: label "root 4" or "root 4: its name" for a kind "root", the edit as description).
+/** Of a .csv (columns `kinds[0]`, which has the number, x, y, z, edit, name, label; others are passed over) or of a
+ *  point list of Slicer (.mrk.json: label "root 4" or "root 4: its name" for a kind "root", the edit as description).
  *  \throws InputError, naming the file and the place in it */
 std::vector<Annotation>
 ReadAnnotations(const std::filesystem::path & path, std::span<const std::string> kinds);

@@ -77,8 +77,8 @@ struct EditedTree
  *    then loose and no larger.
  *  - Remove: cuts at the base, as soon as that parts and tears nothing else, from the ball at the junction on, and takes
  *    out all behind.
- *  - Join: where an end has receded so far that no tip and no branch is at its place, the line runs on from there to the
- *    nearest point of the tree, by at most the length of the gap.
+ *  - Join: where no tip and no branch is at a place any more, as its end has receded, the line runs on from there to
+ *    the nearest point of the tree, by at most the length of the gap.
  *  - Join, Path: put in the voxels within the radius of their lines; where that does not fit up to a voxel's diagonal
  *    more, which closes holes beside rough walls, or less, which keeps off other branches.
  *  - Background: takes out the voxel.
@@ -107,8 +107,8 @@ RequireEdits(const VoxelShape &        before,
              const TopologyNumbers &   certified,
              const std::string &       name);
 
-/** The branch that a place means: BranchAt(), by one and a half voxel diagonals at least, by which thin branches move when
- *  a threshold does. */
+/** The branch that a place means: BranchAt(), by one and a half voxel diagonals at least: so far do thin branches move
+ *  when a threshold does. */
 std::optional<BranchPoint>
 BranchMeant(const SkeletonGraph & graph, const ImageGeometry & geometry, const Vector3 & place);
 
