@@ -180,7 +180,7 @@ TEST_F(ProbabilityJob, WhatIsNoMapIsRefusedAndNothingIsWritten)
   ExpectRefused("map.nrrd", "2 to 100", { { "thresholds", "0.5" } });
   ExpectRefused("map.nrrd", "a number from 0 to 1", { { "persistence", "2" } });
   ExpectRefused("map.nrrd", "leave out --binary", { { "binary", "true" } });
-  ExpectRefused("map.nrrd", "written as .vtp", { { "output", At("folder/") } });
+  ExpectRefused("map.nrrd", "written as .vtp", { { "output", At("refused.csv") } });
   ExpectRefused("map.nrrd", "no voxel lies", { { "thresholds", "0.98,0.99" } });
   EXPECT_THROW(kProbabilityExtension.isAsked({ { "scan", "a.nrrd" }, { "thresholds", "0.5" } }), UsageError);
   EXPECT_FALSE(kProbabilityExtension.isAsked({ { "scan", "a.nrrd" } }));
