@@ -75,8 +75,8 @@ struct EditedTree
  *    with the place, out to twice the radius or, where that does not part the body, four or 1.4 times; where none of
  *    them does, of a slab a little before or behind, within the radius or one and a half voxel diagonals; and what is
  *    then loose and no larger.
- *  - Remove: cuts at the base, as soon as that parts and tears nothing else, from the ball at the junction on, and takes
- *    out all behind.
+ *  - Remove: cuts at the base, from the ball at the junction on, as soon as that parts and tears nothing else, and
+ *    takes out all behind.
  *  - Join: where no tip and no branch is at a place any more, as its end has receded, the line runs on from there to
  *    the nearest point of the tree, by at most the length of the gap.
  *  - Join, Path: put in the voxels within the radius of their lines; where that does not fit up to a voxel's diagonal
