@@ -33,8 +33,8 @@ ReadEdits(const std::filesystem::path & path);
 std::vector<AnnotationRow>
 RowsOf(const SkeletonGraph & graph, std::vector<Said> & said);
 
-/** Edits a label's body by its tree. `options`, by which its skeleton is made then, get the root, the real loops, and as
- *  changed voxels all that makes the body again. */
+/** Edits a label's body by its tree. `options`, by which its skeleton is made then, get the root, the real loops, and
+ *  as changed voxels all that makes the body again. */
 EditedTree
 EditBody(EditedLabel &             label,
          const ImageGeometry &     geometry,
