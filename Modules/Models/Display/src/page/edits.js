@@ -183,10 +183,10 @@ if (Page && Page.view) Page.edits = (function () {
   }
 
   // ---- edits ----
-  // Of roots there is one, and of names one a place; the same edit twice is one.
+  // Of roots there is one a label, and of names one a place; the same edit twice is one.
   function add(kind, spot, further, name, words) {
     const one = { kind, label: spot.label.label, place: placeOf(spot), further: further.map(placeOf), name, words };
-    const isSame = other => kind === 'root' ? other.kind === kind
+    const isSame = other => kind === 'root' ? other.kind === kind && other.label === one.label
       : other.kind === kind && placeText(other.place) === placeText(one.place) && (kind === 'name' ||
         placeText([].concat(...other.further)) === placeText([].concat(...one.further)));
     const old = made.findIndex(isSame);
