@@ -74,7 +74,7 @@ CertifyRefined(RefinedCore            refined,
   if (numbers.tolerance)
   {
     refined.core.tolerances =
-      TolerancesOfTriangles(refined.core.cells, refined.kept, whole, numbers.tolerance->heightMm);
+      TolerancesOfTriangles(refined.core.cells, refined.kept, refined.polygons, whole, numbers.tolerance->heightMm);
   }
   std::vector<double> margins;
   if (ofLabels)

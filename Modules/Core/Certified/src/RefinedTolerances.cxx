@@ -10,7 +10,6 @@
 #include <compare>
 #include <functional>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <span>
 #include <utility>
@@ -21,54 +20,13 @@ namespace voxelcore
 namespace
 {
 
-/** The faces at each vertex. */
-class FacesAtVertices
+bool
+IsPartOf(std::span<const ElementIndex> polygon, const std::array<ElementIndex, 3> & corners)
 {
-public:
-  explicit FacesAtVertices(const CellComplex & cells)
-    : m_Cells(cells)
-    , m_Offsets(cells.vertexCount + 1, 0)
-    , m_Faces(cells.faceVertices.size())
-  {
-    for (const ElementIndex vertex : cells.faceVertices)
-    {
-      ++m_Offsets[vertex + 1];
-    }
-    std::partial_sum(m_Offsets.begin(), m_Offsets.end(), m_Offsets.begin());
-    std::vector<std::size_t> next(m_Offsets.begin(), m_Offsets.end() - 1);
-    for (std::size_t face = 0; face < cells.FaceCount(); ++face)
-    {
-      for (const ElementIndex vertex : cells.FaceVertices(face))
-      {
-        m_Faces[next[vertex]++] = static_cast<ElementIndex>(face);
-      }
-    }
-  }
-
-  /** Two polygons of a core share no three corners. */
-  ElementIndex
-  WithCorners(std::span<const ElementIndex> corners) const
-  {
-    const auto first = m_Faces.begin() + static_cast<std::ptrdiff_t>(m_Offsets[corners[0]]);
-    const auto last = m_Faces.begin() + static_cast<std::ptrdiff_t>(m_Offsets[corners[0] + 1]);
-    const auto found = std::find_if(first, last, [&](ElementIndex face) {
-      const auto own = m_Cells.FaceVertices(face);
-      return std::all_of(corners.begin() + 1, corners.end(), [&](ElementIndex corner) {
-        return std::find(own.begin(), own.end(), corner) != own.end();
-      });
-    });
-    if (found == last)
-    {
-      throw Error("a refined core has a triangle that is part of no face");
-    }
-    return *found;
-  }
-
-private:
-  const CellComplex &       m_Cells;
-  std::vector<std::size_t>  m_Offsets;
-  std::vector<ElementIndex> m_Faces;
-};
+  return std::all_of(corners.begin(), corners.end(), [&](ElementIndex corner) {
+    return std::find(polygon.begin(), polygon.end(), corner) != polygon.end();
+  });
+}
 
 /** Of connected vertices that were taken off the greatest height, given to all that hung on them. `heights`: of what
  *  was there; `isKept` by its vertices. */
@@ -198,20 +156,24 @@ RaiseToRemoval(const CellComplex & cells, ToleranceValues & values)
 ToleranceValues
 TolerancesOfTriangles(const CellComplex &               triangles,
                       const std::vector<ElementIndex> & kept,
+                      const std::vector<ElementIndex> & polygons,
                       const MedialComplex &             whole,
                       double                            height)
 {
   PartElements      left;
-  const CellComplex polygons =
+  const CellComplex core =
     ExtractLive(whole.cells, LeftByTolerance(whole, height), left.vertices, left.edges, left.faces);
-  if (kept.size() != triangles.vertexCount || (!kept.empty() && kept.back() >= polygons.vertexCount))
+  if (kept.size() != triangles.vertexCount || (!kept.empty() && kept.back() >= core.vertexCount))
   {
     throw Error("a refined core has other vertices than its tolerance leaves");
   }
+  if (polygons.size() != triangles.FaceCount())
+  {
+    throw Error("a refined core does not say what its triangles are parts of");
+  }
   ToleranceValues           values;
-  const FacesAtVertices     faces(polygons);
-  std::vector<std::uint8_t> isKept(polygons.vertexCount, 0);
-  std::vector<double>       heights(polygons.vertexCount);
+  std::vector<std::uint8_t> isKept(core.vertexCount, 0);
+  std::vector<double>       heights(core.vertexCount);
   for (std::size_t vertex = 0; vertex < heights.size(); ++vertex)
   {
     heights[vertex] = whole.tolerances.vertices[left.vertices[vertex]];
@@ -220,10 +182,10 @@ TolerancesOfTriangles(const CellComplex &               triangles,
   {
     isKept[vertex] = 1;
   }
-  const bool isWhole = kept.size() == polygons.vertexCount;
+  const bool isWhole = kept.size() == core.vertexCount;
   if (!isWhole)
   {
-    PassOn(polygons, isKept, heights);
+    PassOn(core, isKept, heights);
   }
   values.vertices.reserve(kept.size());
   for (const ElementIndex vertex : kept)
@@ -235,9 +197,14 @@ TolerancesOfTriangles(const CellComplex &               triangles,
   std::vector<std::uint8_t> isKnown(triangles.edges.size(), 0);
   for (std::size_t face = 0; face < values.faces.size(); ++face)
   {
-    const auto                  own = triangles.FaceVertices(face);
-    std::array<ElementIndex, 3> corners{ kept[own[0]], kept[own[1]], kept[own[2]] };
-    values.faces[face] = whole.tolerances.faces[left.faces[faces.WithCorners(corners)]];
+    const auto         own = triangles.FaceVertices(face);
+    const ElementIndex polygon = polygons[face];
+    if (polygon >= core.FaceCount() ||
+        !IsPartOf(core.FaceVertices(polygon), { kept[own[0]], kept[own[1]], kept[own[2]] }))
+    {
+      throw Error("a refined core has a triangle that is part of no face");
+    }
+    values.faces[face] = whole.tolerances.faces[left.faces[polygon]];
     for (const ElementIndex edge : triangles.FaceEdges(face))
     {
       values.edges[edge] = values.faces[face];
@@ -246,21 +213,21 @@ TolerancesOfTriangles(const CellComplex &               triangles,
   }
   // Those that are no cuts are edges of the core.
   std::size_t edge = 0;
-  for (std::size_t own = 0; own < polygons.edges.size(); ++own)
+  for (std::size_t own = 0; own < core.edges.size(); ++own)
   {
     const auto ends = [&] {
       return std::array<ElementIndex, 2>{ kept[triangles.edges[edge][0]], kept[triangles.edges[edge][1]] };
     };
-    while (edge < values.edges.size() && ends() < polygons.edges[own])
+    while (edge < values.edges.size() && ends() < core.edges[own])
     {
       ++edge;
     }
-    if (edge < values.edges.size() && ends() == polygons.edges[own])
+    if (edge < values.edges.size() && ends() == core.edges[own])
     {
       values.edges[edge] = whole.tolerances.edges[left.edges[own]];
       isKnown[edge] = 1;
     }
-    else if (isKept[polygons.edges[own][0]] != 0 && isKept[polygons.edges[own][1]] != 0)
+    else if (isKept[core.edges[own][0]] != 0 && isKept[core.edges[own][1]] != 0)
     {
       throw Error("a refined core lacks an edge that its tolerance leaves");
     }

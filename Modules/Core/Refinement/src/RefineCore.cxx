@@ -104,24 +104,25 @@ RefineCore(const RefinementInput & input, const std::vector<double> & thresholds
               : std::vector<double>();
   const auto refine = [&](RefinementState & working, double threshold, std::optional<double> height = {}) {
     finder.FindBends(working.GreatestRadii());
-    working.Move(finder, progress);
+    working.Move(finder, threshold > 0, progress);
     FormerBalls former;
     refined.push_back(working.Finish(finder, threshold, former));
-    std::vector<ElementIndex> moved;
     if (height)
     {
-      moved = working.MoveRims(finder, former, refined.back());
+      working.MoveRims(finder, former, refined.back());
     }
     BoundRadii(boundary, input.spacing, former.radius, refined.back());
     if (height)
     {
       const ToleranceAt tolerance(std::max(*height, 0.5 * Length(input.spacing)), weights);
       CoveredBoundary   covered = KeepBoundaryCovered(input, boundary, tolerance, former, refined.back());
-      moved.insert(moved.end(), covered.back.begin(), covered.back.end());
-      std::sort(moved.begin(), moved.end());
-      moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
-      working.MeasureAgain(finder, moved, refined.back());
+      working.MeasureAgain(finder, covered.back, refined.back());
+      working.GiveMeasures(refined.back().core);
       TrimRims(input, tolerance, std::move(covered), refined.back());
+    }
+    else if (!(threshold > 0))
+    {
+      working.GiveMeasures(refined.back().core);
     }
   };
   const auto end = [&] {

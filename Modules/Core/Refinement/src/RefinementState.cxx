@@ -1,6 +1,7 @@
 #include "RefinementState.h"
 
 #include "MoveGuard.h"
+#include "Rims.h"
 #include "SmoothRims.h"
 #include "voxelcore/Base/ParallelTasks.h"
 #include "voxelcore/Lattice/Vectors.h"
@@ -94,6 +95,7 @@ RefinementState::RefinementState(const RefinementInput & input, CorePart part)
         static_cast<std::uint32_t>(m_Pairs.Find(corners[k], m_Pairs.OfFace(cut.polygons[face])));
     }
   }
+  m_Polygons = std::move(cut.polygons);
   for (const ElementIndex edge : m_Pairs.LooseEdges())
   {
     const auto found = std::lower_bound(m_Cells.edges.begin(), m_Cells.edges.end(), part.cells.edges[edge]);
@@ -145,12 +147,14 @@ RefinementState::MoveInPasses(const FootPointFinder &    finder,
 }
 
 void
-RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & progress)
+RefinementState::Move(const FootPointFinder & finder, bool isPruned, const ProgressCallback & progress)
 {
   const auto count = static_cast<std::ptrdiff_t>(m_Positions.size());
   m_Widths.assign(m_Pairs.All().size(), 0);
   m_Radius.assign(m_Positions.size(), 0);
   m_Swelling.assign(m_Positions.size(), 0);
+  const std::vector<std::uint8_t> isOnLine =
+    isPruned ? std::vector<std::uint8_t>(m_Positions.size(), 0) : VerticesOnLines(m_Cells);
   ReportProgress(progress, "refining", 0.2);
   FirstFailure failure;
 #pragma omp parallel if (count > 512)
@@ -162,7 +166,10 @@ RefinementState::Move(const FootPointFinder & finder, const ProgressCallback & p
       const auto vertex = static_cast<std::size_t>(i);
       failure.Guard(vertex, [&] {
         MoveInPasses(finder, vertex, Pairs(vertex), footPoints);
-        MeasureVertex(finder, vertex, footPoints);
+        if (isOnLine[vertex] == 0)
+        {
+          MeasureVertex(finder, vertex, footPoints);
+        }
       });
     }
   }
@@ -266,12 +273,12 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
       }
       measured = true;
       MeasureVertices(finder, changed);
-      MeasureElements(stays ? part.cells : m_Cells);
       changed.clear();
       if (stays)
       {
         return;
       }
+      MeasureElements(m_Cells);
       const std::size_t before = part.vertices.size() + part.edges.size();
       KeepLive(part, Collapse(part, threshold));
       again = part.vertices.size() + part.edges.size() < before;
@@ -313,7 +320,7 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
   }
   if (stays)
   {
-    GiveMeasures(refined.core);
+    refined.polygons = std::move(m_Polygons);
   }
   else
   {
@@ -329,10 +336,10 @@ RefinementState::Finish(const FootPointFinder & finder, double threshold, Former
   return refined;
 }
 
-std::vector<ElementIndex>
+void
 RefinementState::MoveRims(const FootPointFinder & finder, const FormerBalls & former, RefinedCore & refined)
 {
-  std::vector<ElementIndex> moved = SmoothRims(m_Input, former, refined);
+  const std::vector<ElementIndex> moved = SmoothRims(m_Input, former, refined);
   for (const ElementIndex vertex : moved)
   {
     m_Displacement[vertex] = refined.displacement[vertex];
@@ -342,34 +349,24 @@ RefinementState::MoveRims(const FootPointFinder & finder, const FormerBalls & fo
   {
     refined.core.radius[vertex] = m_Radius[vertex] - m_Swelling[vertex];
   }
-  return moved;
 }
 
 void
 RefinementState::MeasureAgain(const FootPointFinder &           finder,
                               const std::vector<ElementIndex> & moved,
-                              RefinedCore &                     refined)
+                              const RefinedCore &               refined)
 {
-  if (moved.empty())
-  {
-    return;
-  }
   for (const ElementIndex vertex : moved)
   {
     m_Displacement[vertex] = refined.displacement[vertex];
   }
   MeasureVertices(finder, moved);
-  refined.core.vertexLambda = {};
-  refined.core.edgeLambda = {};
-  refined.core.faceLambda = {};
-  MeasureElements(refined.core.cells);
-  GiveMeasures(refined.core);
 }
 
-// All of them are taken anew each time.
 void
 RefinementState::GiveMeasures(MedialComplex & core)
 {
+  MeasureElements(core.cells);
   core.vertexLambda = std::move(m_VertexMeasure);
   core.edgeLambda = std::move(m_EdgeMeasure);
   core.faceLambda = std::move(m_FaceMeasure);

@@ -34,21 +34,26 @@ public:
   std::vector<double>
   GreatestRadii() const;
 
-  /** Moves vertices to where their balls touch alike, and measures them there. */
+  /** Moves vertices to where their balls touch alike, and measures them there. Where nothing is pruned, those on lines
+   *  are measured when Finish() has moved them on. */
   void
-  Move(const FootPointFinder & finder, const ProgressCallback & progress);
+  Move(const FootPointFinder & finder, bool isPruned, const ProgressCallback & progress);
 
-  /** What is left at a threshold in mm (0: all), and where its balls were before they were moved. */
+  /** What is left at a threshold in mm (0: all, without measures), and where its balls were before they were moved. */
   RefinedCore
   Finish(const FootPointFinder & finder, double threshold, FormerBalls & former);
 
-  /** Smooths the rims of what Finish() left at threshold 0, and takes radii there. Returns what has moved. */
-  std::vector<ElementIndex>
+  /** Smooths the rims of what Finish() left at threshold 0, and takes radii there. */
+  void
   MoveRims(const FootPointFinder & finder, const FormerBalls & former, RefinedCore & refined);
 
-  /** The measures of what Finish() left at threshold 0, some vertices of which have gone elsewhere. */
+  /** Of what Finish() left at threshold 0 some vertices have gone elsewhere: they are measured there. */
   void
-  MeasureAgain(const FootPointFinder & finder, const std::vector<ElementIndex> & moved, RefinedCore & refined);
+  MeasureAgain(const FootPointFinder & finder, const std::vector<ElementIndex> & moved, const RefinedCore & refined);
+
+  /** What Finish() left at threshold 0 gets its measures. Once. */
+  void
+  GiveMeasures(MedialComplex & core);
 
 private:
   std::span<const PointPair>
@@ -89,8 +94,6 @@ private:
   WidthAt(ElementIndex vertex, const PointPair & pair) const;
   void
   MeasureElements(const CellComplex & cells);
-  void
-  GiveMeasures(MedialComplex & core);
   std::vector<ElementIndex>
   MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted);
   std::vector<ElementIndex>
@@ -140,6 +143,7 @@ private:
 
   const RefinementInput & m_Input; ///< core and edgePoints are asked for in the constructor alone
   CellComplex             m_Cells; ///< lent to what is refined as it is
+  std::vector<ElementIndex> m_Polygons; ///< of each triangle the face it is a part of; given with the cells
   VertexPairs             m_Pairs;
   std::vector<Vector3>    m_Positions;
   std::vector<Vector3>    m_Displacement;

@@ -14,6 +14,10 @@ namespace voxelcore
 std::vector<std::uint8_t>
 OnWideSheets(const CellComplex & cells, const std::vector<Cofaces> & facesAtEdges);
 
+/** Vertices that have edges and no faces, one flag (0 or 1) each. */
+std::vector<std::uint8_t>
+VerticesOnLines(const CellComplex & cells);
+
 /** The greatest part of a step that leaves a displacement within a voxel; lattice coordinates. */
 double
 PartWithinAVoxel(const Vector3 & displacement, const Vector3 & step);

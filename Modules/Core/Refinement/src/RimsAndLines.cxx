@@ -13,28 +13,55 @@
 namespace voxelcore
 {
 
+std::vector<std::uint8_t>
+VerticesOnLines(const CellComplex & cells)
+{
+  std::vector<std::uint8_t> onLine(cells.vertexCount, 0);
+  for (const auto & [from, to] : cells.edges)
+  {
+    onLine[from] = onLine[to] = 1;
+  }
+  for (const ElementIndex corner : cells.faceVertices)
+  {
+    onLine[corner] = 0;
+  }
+  return onLine;
+}
+
 // Of a part that is a line the pairs of a vertex may all lie on one side: those of its neighbours lie around it.
 // Returns what was moved.
 std::vector<ElementIndex>
 RefinementState::MoveLines(const FootPointFinder & finder, const CorePart & part, const std::vector<Vector3> & wanted)
 {
-  std::vector<std::uint8_t>              onFace(part.vertices.size(), 0);
-  std::vector<std::vector<ElementIndex>> near(part.vertices.size());
-  for (const ElementIndex corner : part.cells.faceVertices)
-  {
-    onFace[corner] = 1;
-  }
-  for (const auto & edge : part.cells.edges)
-  {
-    near[edge[0]].push_back(edge[1]);
-    near[edge[1]].push_back(edge[0]);
-  }
-  std::vector<ElementIndex> lines;
+  const std::vector<std::uint8_t> onLine = VerticesOnLines(part.cells);
+  std::vector<ElementIndex>       lines;
   for (std::size_t vertex = 0; vertex < part.vertices.size(); ++vertex)
   {
-    if (onFace[vertex] == 0 && !near[vertex].empty())
+    if (onLine[vertex] != 0)
     {
       lines.push_back(static_cast<ElementIndex>(vertex));
+    }
+  }
+  if (lines.empty())
+  {
+    return lines;
+  }
+  std::vector<std::uint8_t> isAsked = onLine; // and what is beside them
+  for (const auto & [from, to] : part.cells.edges)
+  {
+    isAsked[from] |= onLine[to];
+    isAsked[to] |= onLine[from];
+  }
+  std::vector<std::vector<ElementIndex>> near(part.vertices.size());
+  for (const auto & [from, to] : part.cells.edges)
+  {
+    if (isAsked[from] != 0)
+    {
+      near[from].push_back(to);
+    }
+    if (isAsked[to] != 0)
+    {
+      near[to].push_back(from);
     }
   }
   const auto   count = static_cast<std::ptrdiff_t>(lines.size());

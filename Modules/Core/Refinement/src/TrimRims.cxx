@@ -386,6 +386,13 @@ TrimRims(const RefinementInput & input, const ToleranceAt & tolerance, CoveredBo
   if (refined.kept.size() < live.vertices.size())
   {
     refined.displacement.resize(refined.kept.size());
+    std::size_t faces = 0;
+    for (std::size_t face = 0; face < live.faces.size(); ++face)
+    {
+      refined.polygons[faces] = refined.polygons[face];
+      faces += live.faces[face];
+    }
+    refined.polygons.resize(faces);
     refined.core = KeepPart(std::move(refined.core), live);
   }
 }

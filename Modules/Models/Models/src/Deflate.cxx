@@ -7,21 +7,49 @@
 namespace voxelcore
 {
 
+namespace
+{
+
 std::string
-Deflate(std::string_view bytes)
+DeflateBy(int strategy, std::string_view bytes)
 {
   // Of a root system's core level 6 makes 8 % less, in five times the time.
   constexpr int level = 1;
-  auto          length = compressBound(static_cast<uLong>(bytes.size()));
-  std::string   packed(length, '\0');
-  const auto    from = reinterpret_cast<const Bytef *>(bytes.data());
-  if (compress2(reinterpret_cast<Bytef *>(packed.data()), &length, from, static_cast<uLong>(bytes.size()), level) !=
-      Z_OK)
+  constexpr int window = 15;
+  constexpr int memory = 8; // zlib's own default
+  z_stream      stream{};
+  if (deflateInit2(&stream, level, Z_DEFLATED, window, memory, strategy) != Z_OK)
+  {
+    throw std::bad_alloc();
+  }
+  std::string packed(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
+  stream.next_in = reinterpret_cast<z_const Bytef *>(const_cast<char *>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef *>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  const int end = deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (end != Z_STREAM_END)
   {
     throw std::bad_alloc(); // there is room, so that nothing else can be wrong
   }
-  packed.resize(length);
   return packed;
+}
+
+} // namespace
+
+// In lengths and places of a refined core hardly anything recurs. Where the first bytes say so recurrences are not
+// looked for but in runs: radii, measures and moves of a gyroid come out 0.5 % longer, in 0.4 of the time.
+std::string
+Deflate(std::string_view bytes)
+{
+  constexpr std::size_t first = std::size_t{ 1 } << 14;
+  constexpr double      hardly = 0.85; // of it is left
+  const bool            recurs =
+    bytes.size() <= 2 * first ||
+    static_cast<double>(DeflateBy(Z_DEFAULT_STRATEGY, bytes.substr(0, first)).size()) < hardly * first;
+  return DeflateBy(recurs ? Z_DEFAULT_STRATEGY : Z_RLE, bytes);
 }
 
 bool
