@@ -87,7 +87,8 @@ public:
   }
 
   /** Finds what Evaluate() needs of a slab, and within 6 voxels of it, but not far from bricks that have `changed`, if
-   *  any are named. Values stay; of a single slab so do the coefficients. */
+   *  any are named. Slabs are to be taken in order, and values stay meanwhile; of a single slab so do the
+   *  coefficients. */
   void
   FindCoefficients(float weight, const Slab & slab, const std::vector<std::uint8_t> & changed);
 

@@ -119,7 +119,8 @@ void
 BandField::SumTwice(const Kernels & first, const Kernels & second, const std::vector<std::uint8_t> & changed, TUse use)
 {
   constexpr std::size_t           slots = 4;
-  const std::vector<std::uint8_t> needed = m_Grid.AndAround(changed);
+  const bool                      all = std::find(changed.begin(), changed.end(), 0) == changed.end();
+  const std::vector<std::uint8_t> needed = all ? changed : m_Grid.AndAround(changed);
   const std::size_t               planes = m_Planes.size() - 1;
   std::size_t                     most = 0;
   for (std::size_t plane = 0; plane < planes; ++plane)
@@ -260,6 +261,16 @@ BandField::FindCoefficients(float weight, const Slab & slab, const std::vector<s
     {
       bricks[--end] = 0;
     }
+  }
+  // What the slab before has found for this one stays.
+  const std::size_t found = slab.first == 0 ? first : m_FirstCoefficient + m_Coefficients.size() / kVoxels;
+  if (found > first)
+  {
+    const auto from = m_Coefficients.begin() + static_cast<std::ptrdiff_t>((first - m_FirstCoefficient) * kVoxels);
+    std::copy(from, m_Coefficients.end(), m_Coefficients.begin());
+    std::fill(bricks.begin() + static_cast<std::ptrdiff_t>(first),
+              bricks.begin() + static_cast<std::ptrdiff_t>(found),
+              std::uint8_t{ 0 });
   }
   m_FirstCoefficient = first;
   m_Coefficients.resize((end - first) * kVoxels);

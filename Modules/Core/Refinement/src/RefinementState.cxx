@@ -110,9 +110,10 @@ RefinementState::MoveVertex(const FootPointFinder &    finder,
                             std::span<const PointPair> pairs,
                             std::vector<FootPoint> &   footPoints)
 {
-  constexpr double       longest = 0.5; // voxels a pass
-  const Vector3          place = Place(vertex);
-  std::vector<PointPair> apart;
+  constexpr double                           longest = 0.5; // voxels a pass
+  const Vector3                              place = Place(vertex);
+  static thread_local std::vector<PointPair> apart; // filled anew for each vertex
+  apart.clear();
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(apart), [&](const PointPair & pair) {
     return !finder.Meet(place, pair);
   });

@@ -141,14 +141,14 @@ private:
   LiveElements
   Collapse(const CorePart & part, double threshold) const;
 
-  const RefinementInput & m_Input; ///< core and edgePoints are asked for in the constructor alone
-  CellComplex             m_Cells; ///< lent to what is refined as it is
+  const RefinementInput &   m_Input;    ///< core and edgePoints are asked for in the constructor alone
+  CellComplex               m_Cells;    ///< lent to what is refined as it is
   std::vector<ElementIndex> m_Polygons; ///< of each triangle the face it is a part of; given with the cells
-  VertexPairs             m_Pairs;
-  std::vector<Vector3>    m_Positions;
-  std::vector<Vector3>    m_Displacement;
-  std::vector<double>     m_FormerRadius;
-  std::vector<double>     m_FormerLambda;
+  VertexPairs               m_Pairs;
+  std::vector<Vector3>      m_Positions;
+  std::vector<Vector3>      m_Displacement;
+  std::vector<double>       m_FormerRadius;
+  std::vector<double>       m_FormerLambda;
 
   std::vector<double>                               m_Widths;       ///< of each pair of each vertex, mm
   std::vector<std::uint32_t>                        m_CornerWidths; ///< whose each corner of each triangle's is

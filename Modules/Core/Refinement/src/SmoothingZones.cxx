@@ -176,6 +176,7 @@ SmoothingZones::LeaveOutAroundMarks(double near)
   }
   const BrickGrid & grid = m_Depth->Grid();
   const auto        squares = tile::AsFloats(m_Depth->Squares());
+  const auto        most = static_cast<float>((near + 2) * (near + 2)); // beyond it all stays
   const auto        count = static_cast<std::ptrdiff_t>(grid.Count());
 #pragma omp parallel for schedule(dynamic, 16) if (count > BrickGrid::kMany)
   for (std::ptrdiff_t i = 0; i < count; ++i)
@@ -191,6 +192,10 @@ SmoothingZones::LeaveOutAroundMarks(double near)
     for (std::size_t cell = 0; cell < kCells; ++cell)
     {
       std::uint8_t & part = m_Parts[brick * kCells + cell];
+      if (part == 0 || toMark[cell] >= most)
+      {
+        continue;
+      }
       part = static_cast<std::uint8_t>(
         std::lround(part * (1 - Ramp(std::sqrt(static_cast<double>(toMark[cell])), near, near + 2))));
     }
