@@ -272,6 +272,8 @@ TEST(RefineByTolerance, LeavesTheSameRimsForAnyNumberOfThreads)
     EXPECT_EQ(one.core.cells.edges, two.core.cells.edges);
     EXPECT_EQ(one.core.cells.faceVertices, two.core.cells.faceVertices);
     EXPECT_EQ(one.kept, two.kept);
+    EXPECT_EQ(one.polygons, two.polygons);
+    EXPECT_EQ(one.polygons.size(), one.core.cells.FaceCount());
     EXPECT_EQ(one.hairsTaken, two.hairsTaken);
   }
 }

@@ -10,9 +10,9 @@ namespace voxelcore
 
 /** `triangles`: of what a height in mm leaves of `whole`, a core that has its heights, polygons cut into triangles and
  *  some of them taken off at rims, with vertices in their order there: `kept` are their numbers among those that the
- *  height leaves, `polygons` those of the faces that triangles are parts of. A triangle and its cuts have the height of their polygon, or a greater one: what remains where others
- *  were taken off stays at least as long as they would have, and each goes at the height at which it can, by simple
- *  pairs.
+ *  height leaves, `polygons` those of the faces that triangles are parts of. A triangle and its cuts have the height of
+ *  their polygon, or a greater one: what remains where others were taken off stays at least as long as they would have,
+ *  and each goes at the height at which it can, by simple pairs.
  *  \throws Error when they are no such triangles */
 ToleranceValues
 TolerancesOfTriangles(const CellComplex &               triangles,

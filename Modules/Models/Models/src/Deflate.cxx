@@ -39,16 +39,18 @@ DeflateBy(int strategy, std::string_view bytes)
 
 } // namespace
 
-// In lengths and places of a refined core hardly anything recurs. Where the first bytes say so recurrences are not
-// looked for but in runs: radii, measures and moves of a gyroid come out 0.5 % longer, in 0.4 of the time.
+// In lengths and places of a refined core hardly anything recurs. Where samples say so only runs are looked for: radii,
+// measures and moves of a gyroid come out 0.5 % longer, in 0.4 of the time.
 std::string
 Deflate(std::string_view bytes)
 {
-  constexpr std::size_t first = std::size_t{ 1 } << 14;
+  constexpr std::size_t sample = std::size_t{ 1 } << 13;
   constexpr double      hardly = 0.85; // of it is left
-  const bool            recurs =
-    bytes.size() <= 2 * first ||
-    static_cast<double>(DeflateBy(Z_DEFAULT_STRATEGY, bytes.substr(0, first)).size()) < hardly * first;
+  const auto            recursAt = [&](std::size_t first) {
+    const std::string_view some = bytes.substr(first, sample);
+    return static_cast<double>(DeflateBy(Z_DEFAULT_STRATEGY, some).size()) < hardly * static_cast<double>(some.size());
+  };
+  const bool recurs = bytes.size() <= 4 * sample || recursAt(0) || recursAt(bytes.size() / 2);
   return DeflateBy(recurs ? Z_DEFAULT_STRATEGY : Z_RLE, bytes);
 }
 

@@ -44,7 +44,7 @@ struct RefinedCore
 
   // By tolerance
   std::vector<ElementIndex> kept;           ///< per vertex, its number among those that the tolerance left
-  std::vector<ElementIndex> polygons;       ///< per triangle, of which face of those that the tolerance left it is a part
+  std::vector<ElementIndex> polygons;       ///< per triangle, the number of its face among those
   std::size_t               hairsTaken = 0; ///< of these
 };
 
