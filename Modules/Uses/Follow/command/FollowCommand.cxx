@@ -46,16 +46,8 @@ constexpr auto kFollowOwn = std::to_array<Parameter>({
     "-" },
 });
 
-constexpr auto kFollowRows = Joined(kRunRows,
-                                    kFollowOwn,
-                                    kFolderOutput,
-                                    kLabelRows,
-                                    kShapeRows,
-                                    kValueRows,
-                                    kTreeRows,
-                                    kTableRows,
-                                    kForceRows,
-                                    kRootRows);
+constexpr auto kFollowRows =
+  Joined(kRunRows, kFollowOwn, kFolderOutput, kLabelRows, kShapeRows, kValueRows, kTableRows, kForceRows, kRootRows);
 
 } // namespace table
 

@@ -510,8 +510,11 @@ private:
         branch.before = known.day;
         branch.advance = AdvanceAlong(known.course, course, m_Least);
         branch.radiusChange = RadiusChange(known.course, course);
-        branch.growth = course.arcs.back() - CourseTree(course, m_Least).ArcOf(known.course.places.back()) +
-                        CourseTree(known.course, m_Least).ArcOf(course.places.back()) - known.course.arcs.back();
+        branch.growth = course.arcs.back() - CourseTree(course, m_Least).ArcOf(known.course.places.back());
+        if (!(branch.growth > 0))
+        {
+          branch.growth = CourseTree(known.course, m_Least).ArcOf(course.places.back()) - known.course.arcs.back();
+        }
       }
       known.order = branch.order;
       known.day = day;

@@ -170,9 +170,11 @@ RequireCourse(const FollowedBranch & branch,
   const double rounding = kRounding * (1 + later.arcs.back());
   Require(std::abs(advance - branch.advance) <= rounding, number, name + " was measured wrong");
   constexpr double anywhere = std::numeric_limits<double>::infinity();
-  const double     growth = later.arcs.back() - ArcAt(later, earlier.places.back(), anywhere) +
-                        ArcAt(earlier, later.places.back(), anywhere) - earlier.arcs.back();
-  Require(std::abs(growth - branch.growth) <= rounding, number, name + " has grown otherwise");
+  const double     ahead = later.arcs.back() - ArcAt(later, earlier.places.back(), anywhere);
+  const double     behind = earlier.arcs.back() - ArcAt(earlier, later.places.back(), anywhere);
+  const double     growth = branch.growth > 0 ? ahead : -behind;
+  const bool       isSound = branch.growth > 0 || ahead <= rounding;
+  Require(isSound && std::abs(growth - branch.growth) <= rounding, number, name + " has grown otherwise");
   Require(advance >= SharedNeed(earlier, later.arcs.back()) - rounding, number, name + " does not share its course");
 }
 

@@ -40,9 +40,9 @@ struct FollowedBranch
   double                    meanRadius = 0; ///< outside the parent's ball, weighted by length
   double                    advance = 0;    ///< along the course it was known by, mm
   std::size_t               before = 0;     ///< the day, from 0, of that course
-  /** Since that day, mm: from the place on its course nearest to the earlier tip to its tip, less what the earlier course
-   *  goes on beyond the place nearest to the tip of now; NaN of a new one. Lengths tell it less well: their bases lie
-   *  somewhere in their parents. */
+  /** Since that day, mm: along its course from the place nearest to the earlier tip to its tip; where that is at its
+   *  end, by how much the earlier course went on, negative. NaN of a new one. Lengths tell it less well, as their bases
+   *  lie somewhere in their parents. */
   double growth = std::numeric_limits<double>::quiet_NaN();
   /** Since that day, mean along the course that both share outside the parent's ball, mm; NaN of a new one. */
   double radiusChange = std::numeric_limits<double>::quiet_NaN();
