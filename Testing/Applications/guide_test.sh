@@ -24,6 +24,7 @@ make_inputs() {
   tail -c $((40 * 40 * 24)) torus.nii >scan.raw
   rm torus.nii
   voxelcore phantom root --size 40 -o root.nii.gz -q
+  for day in 0 7 14; do cp root.nii.gz day$day.nii.gz; done
   voxelcore phantom root --size 40 -o softmax.nrrd -q # a map that is sure of each voxel
   voxelcore phantom root --size 40 -o huge.nrrd -q
   voxelcore phantom rod --size 40 -o stem.nrrd -q

@@ -68,6 +68,11 @@ ReadDay(const fs::path &           path,
                                  PartOfProgress(progress, 0.2, 1))[0]
                   .graph;
   }
+  constexpr double farthest = 1e15; // mm; squares of more than 1e150 overflow
+  if (ranges::any_of(day.graph.positions, [](const Vector3 & place) { return !(Length(place) <= farthest); }))
+  {
+    throw InputError(path.string() + ": a point is more than 1e15 mm from the origin; correct its coordinates");
+  }
   if (day.graph.BranchCount() == 0)
   {
     throw InputError(path.string() + ": has no branch to follow; choose another label, or leave this day out");

@@ -17,9 +17,6 @@ namespace voxelcore
 namespace
 {
 
-constexpr double kStepsPerTolerance = 4; ///< places of a later line that are held against an earlier one
-constexpr double kMostSteps = 1e6;       ///< of a piece, as in CompareTrees(): a damaged file's far point asks for more
-
 /** The hierarchy of a day's branches, each component begun where it began before. */
 struct Hierarchy
 {
@@ -200,7 +197,7 @@ WalkAlong(const CourseTree & tree, const Course & later, double step, const TVis
   {
     const Vector3 way = Minus(later.places[i], later.places[i - 1]);
     const double  length = later.arcs[i] - later.arcs[i - 1];
-    const double  count = std::clamp(std::ceil(length / step), 1.0, kMostSteps);
+    const double  count = std::max(1.0, std::ceil(length / step));
     for (double k = 1; k <= count; ++k)
     {
       const auto here = tree.At(AddScaled(later.places[i - 1], k / count, way));
@@ -215,21 +212,12 @@ WalkAlong(const CourseTree & tree, const Course & later, double step, const TVis
 }
 
 double
-StepFor(const Course & earlier, double least)
-{
-  return std::max(*ranges::min_element(earlier.radii), least) / kStepsPerTolerance;
-}
-
-double
-AdvanceAlong(const Course & earlier, const Course & later, double least)
+AdvanceAlong(const CourseTree & tree, const Course & later, double step)
 {
   double advance = 0;
-  WalkAlong(CourseTree(earlier, least),
-            later,
-            StepFor(earlier, least),
-            [&](const CourseTree::Foot & from, const CourseTree::Foot & to, double length, double) {
-              advance += std::clamp(to.arc - from.arc, -length, length);
-            });
+  WalkAlong(tree, later, step, [&](const CourseTree::Foot & from, const CourseTree::Foot & to, double length, double) {
+    advance += std::clamp(to.arc - from.arc, -length, length);
+  });
   return advance;
 }
 
@@ -248,6 +236,11 @@ public:
     m_Graph = &result.graph;
     m_Tree = HierarchyOf(result.graph, RootsOf(first), !m_Known.empty());
     m_Owner.assign(result.graph.BranchCount(), 0);
+    m_Whole = 0;
+    for (std::size_t branch = 0; branch < result.graph.BranchCount(); ++branch)
+    {
+      m_Whole += result.graph.BranchLength(branch);
+    }
     std::map<std::int64_t, std::vector<ElementIndex>> ways;
     ClaimKnown(ways);
     const std::int64_t firstNew = std::ssize(m_Known) + 1;
@@ -412,17 +405,11 @@ private:
       {
         const Known &    known = m_Known[number];
         const CourseTree tree(known.course, m_Least);
-        const double     step = StepFor(known.course, m_Least);
+        const double     step = StepAlong(known.course, m_Whole, m_Least);
         auto &           advance = advances[number];
         for (const Course & course : courses)
         {
-          double & sum = advance.emplace_back(0);
-          WalkAlong(tree,
-                    course,
-                    step,
-                    [&](const CourseTree::Foot & from, const CourseTree::Foot & to, double length, double) {
-                      sum += std::clamp(to.arc - from.arc, -length, length);
-                    });
+          advance.push_back(AdvanceAlong(tree, course, step));
         }
         queue.emplace(BestClaim(known, advance).advance, -static_cast<std::int64_t>(number));
       }
@@ -508,12 +495,14 @@ private:
       {
         branch.state = known.day + 1 == day ? BranchState::Kept : BranchState::Back;
         branch.before = known.day;
-        branch.advance = AdvanceAlong(known.course, course, m_Least);
-        branch.radiusChange = RadiusChange(known.course, course);
+        const CourseTree earlier(known.course, m_Least);
+        const double     step = StepAlong(known.course, m_Whole, m_Least);
+        branch.advance = AdvanceAlong(earlier, course, step);
+        branch.radiusChange = RadiusChange(known.course, earlier, course, step);
         branch.growth = course.arcs.back() - CourseTree(course, m_Least).ArcOf(known.course.places.back());
         if (!(branch.growth > 0))
         {
-          branch.growth = CourseTree(known.course, m_Least).ArcOf(course.places.back()) - known.course.arcs.back();
+          branch.growth = earlier.ArcOf(course.places.back()) - known.course.arcs.back();
         }
       }
       known.order = branch.order;
@@ -547,14 +536,14 @@ private:
     return course.radii.front();
   }
 
-  double
-  RadiusChange(const Course & earlier, const Course & later) const
+  static double
+  RadiusChange(const Course & earlier, const CourseTree & tree, const Course & later, double step)
   {
     double whole = 0;
     double change = 0;
-    WalkAlong(CourseTree(earlier, m_Least),
+    WalkAlong(tree,
               later,
-              StepFor(earlier, m_Least),
+              step,
               [&](const CourseTree::Foot & from, const CourseTree::Foot & to, double length, double radius) {
                 // Beyond the earlier tip all lies at that.
                 if (std::min(from.arc, to.arc) >= earlier.base && from.arc != to.arc)
@@ -569,6 +558,7 @@ private:
   double                    m_Least;
   std::vector<Known>        m_Known; ///< by id, from 1
   const SkeletonGraph *     m_Graph = nullptr;
+  double                    m_Whole = 0; ///< length of the day's branches
   Hierarchy                 m_Tree;
   std::vector<std::int64_t> m_Owner; ///< id of each branch of the day; 0: none yet
 };

@@ -161,12 +161,12 @@ RequireCourse(const FollowedBranch & branch,
   Require(known != before.branches.end(), number, name + " was not there on the day it is known from");
   const Course earlier = CourseOf(before.graph, known->points, known->parent != 0);
   const Course later = CourseOf(day.graph, branch.points, branch.parent != 0);
-  double       thinnest = std::numeric_limits<double>::infinity();
-  for (const double radius : earlier.radii)
+  double       whole = 0;
+  for (std::size_t one = 0; one < day.graph.BranchCount(); ++one)
   {
-    thinnest = std::min(thinnest, std::max(radius, least));
+    whole += day.graph.BranchLength(one);
   }
-  const double advance = Advance(earlier, later, thinnest / 4, least);
+  const double advance = Advance(earlier, later, StepAlong(earlier, whole, least), least);
   const double rounding = kRounding * (1 + later.arcs.back());
   Require(std::abs(advance - branch.advance) <= rounding, number, name + " was measured wrong");
   constexpr double anywhere = std::numeric_limits<double>::infinity();

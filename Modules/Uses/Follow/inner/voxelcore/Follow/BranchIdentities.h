@@ -11,6 +11,7 @@
 #include "voxelcore/Follow/RigidMotion.h"
 #include "voxelcore/Skeleton/BranchTable.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -72,8 +73,7 @@ FollowBranches(std::vector<SkeletonGraph> graphs, const RootChoice & root, doubl
 void
 RequireIdentities(std::span<const FollowedDay> days, std::span<const RigidMotion> motions, double least);
 
-/** An earlier course as places with radii, and the places of a later one along it: what both the rule and its check
- *  mean by advance. Places are no more than a quarter of the tolerance apart. */
+/** What both the rule and its check mean by a course: its points with radii. */
 struct Course
 {
   std::vector<Vector3> places;
@@ -84,6 +84,14 @@ struct Course
 
 Course
 CourseOf(const SkeletonGraph & graph, std::span<const ElementIndex> points, bool hasParent);
+
+/** How far apart places of a later line are held against an earlier course: a quarter of its least tolerance. Of a day
+ *  of the length `whole` there are no more than 100,000: a damaged file's one far point would ask for all time. */
+inline double
+StepAlong(const Course & earlier, double whole, double least)
+{
+  return std::max(std::max(*std::min_element(earlier.radii.begin(), earlier.radii.end()), least) / 4, whole / 1e5);
+}
 
 /** The length of a later way, of which the part in the parent's ball decides nothing, that must be shared. */
 inline double
