@@ -420,12 +420,12 @@ private:
         queue.pop();
         const Known & known = m_Known[number];
         Claim         claim = BestClaim(known, advances[number]);
-        if (claim.advance != expected && !claim.way.empty()) // others have taken branches since
+        if (claim.advance < expected && !claim.way.empty()) // others have taken branches since
         {
           queue.emplace(claim.advance, opposite);
           continue;
         }
-        if (claim.way.empty() || !(claim.advance >= SharedNeed(known.course, LengthOf(claim.way))))
+        if (!(claim.advance > 0) || !(claim.advance >= SharedNeed(known.course, LengthOf(claim.way))))
         {
           continue;
         }
