@@ -242,6 +242,24 @@ TEST(CertifiedCore, ARefinedOnePrunedOnByToleranceHasTheCellsOfOneRefinedThere)
   }
 }
 
+TEST(CertifiedCore, WhatNeverGoesOfARefinedOneHasTheGreatestToleranceThatIsANumber)
+{
+  const VoxelShape ring = testing::ShapeWhere({ 40, 40, 14 }, [](int x, int y, int z) {
+    const double around = std::hypot(x - 19.5, y - 19.5) - 12;
+    return std::hypot(around, 1.5 * (z - 6.5)) < 6;
+  });
+  CertifiedRequest request;
+  request.tolerances = { ParseTolerance("0.6diag") };
+  const CertifiedResult refined = ComputeCertified(ring, Grid({ 1, 1, 1 }), request);
+  ASSERT_TRUE(refined.cores[0].numbers.refined.has_value());
+  const MedialComplex & core = refined.cores[0].core.core;
+  ASSERT_EQ(refined.shape.topology.betti[1], 1) << "its loop never goes";
+  const double never = GreatestTolerance(core);
+  EXPECT_TRUE(std::isfinite(never));
+  EXPECT_GT(std::count(core.tolerances.vertices.begin(), core.tolerances.vertices.end(), never), 10);
+  EXPECT_LT(*std::min_element(core.tolerances.vertices.begin(), core.tolerances.vertices.end()), never);
+}
+
 // What was trimmed at its rims has heights of its own, of which each greater tolerance leaves what has the topology.
 TEST(CertifiedCore, ARefinedOneWithTrimmedRimsKeepsItsTopologyWhenPrunedOn)
 {

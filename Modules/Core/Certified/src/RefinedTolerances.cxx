@@ -9,7 +9,6 @@
 #include <array>
 #include <compare>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <span>
 #include <utility>
@@ -57,10 +56,10 @@ PassOn(const CellComplex & polygons, const std::vector<std::uint8_t> & isKept, s
   }
 }
 
-/** Raises heights to those at which elements go by simple pairs, whose own heights both say so; infinity for what never
- *  does. */
+/** Raises heights to those at which elements go by simple pairs, whose own heights both say so; `never`, which none of
+ *  them exceeds, for what never does. */
 void
-RaiseToRemoval(const CellComplex & cells, ToleranceValues & values)
+RaiseToRemoval(const CellComplex & cells, double never, ToleranceValues & values)
 {
   struct Pair
   {
@@ -71,7 +70,6 @@ RaiseToRemoval(const CellComplex & cells, ToleranceValues & values)
     auto
     operator<=>(const Pair &) const = default;
   };
-  constexpr double                                             never = std::numeric_limits<double>::infinity();
   std::vector<Cofaces>                                         edgesAt = CountVertexCofaces(cells);
   std::vector<Cofaces>                                         facesAt = CountEdgeCofaces(cells);
   std::priority_queue<Pair, std::vector<Pair>, std::greater<>> free;
@@ -238,7 +236,8 @@ TolerancesOfTriangles(const CellComplex &               triangles,
   }
   if (!isWhole)
   {
-    RaiseToRemoval(triangles, values);
+    const auto & ended = whole.tolerances.vertices; // at what never goes
+    RaiseToRemoval(triangles, ended.empty() ? 0 : *std::max_element(ended.begin(), ended.end()), values);
   }
   RaiseTolerances(values, height);
   return values;

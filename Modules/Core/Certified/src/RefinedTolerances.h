@@ -12,7 +12,7 @@ namespace voxelcore
  *  some of them taken off at rims, with vertices in their order there: `kept` are their numbers among those that the
  *  height leaves, `polygons` those of the faces that triangles are parts of. A triangle and its cuts have the height of
  *  their polygon, or a greater one: what remains where others were taken off stays at least as long as they would have,
- *  and each goes at the height at which it can, by simple pairs.
+ *  and each goes at the height at which it can, by simple pairs. What never can has the greatest height of `whole`.
  *  \throws Error when they are no such triangles */
 ToleranceValues
 TolerancesOfTriangles(const CellComplex &               triangles,
