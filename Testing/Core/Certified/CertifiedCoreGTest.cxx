@@ -7,6 +7,7 @@
 #include "voxelcore/VoxelCore/TolerancePruning.h"
 
 #include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 #include <tuple>
