@@ -49,8 +49,8 @@ StageCoreJob(const CoreOptions & options,
              const ShapesSeen &  seen = {},
              ScanAtHand *        scan = nullptr);
 
-/** The certified skeletons of masks, as `voxelcore skeleton` makes them; an empty one of an empty mask. `name`: of their
- *  scan. Two run side by side, one thread each: threads of one of them would wait for each other. */
+/** The certified skeletons of masks, as `voxelcore skeleton` makes them; an empty one of an empty mask. `name` is that
+ *  of their scan. Two run side by side, one thread each: threads of one of them would wait for each other. */
 std::vector<SkeletonPart>
 SkeletonsOfMasks(std::vector<LabelShape>  masks,
                  const ImageGeometry &    geometry,
