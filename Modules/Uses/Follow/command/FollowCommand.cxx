@@ -15,7 +15,14 @@ namespace table
 {
 
 constexpr auto kFollowOwn = std::to_array<Parameter>({
-  { "days", "", Inputs, "DAY...", "", true, Group::Input, "The days in order: masks, or skeletons (.vtp .swc .rsml)" },
+  { "days",
+    "",
+    Inputs,
+    "DAY...",
+    "",
+    true,
+    Group::Input,
+    "The days in order: masks, or skeletons (.vtp .swc .rsml .graphml)" },
   { "report", "--report", Output, "OUT.json", "", false, Group::Output, "Write all tables as JSON" },
   { "times",
     "--times",
