@@ -49,7 +49,8 @@ dpkg-checkbuilddeps >"$scratch/needs.log" 2>&1 || skip "$(tail -n 1 "$scratch/ne
 dpkg-buildpackage -us -uc -S -d >"$scratch/source.log" 2>&1 ||
   { tail -n 30 "$scratch/source.log" >&2; fail "no source package can be made"; }
 # A variable of the builder's own, such as DEB_BUILD_OPTIONS=noautodbgsym, is kept.
-CCACHE_BASEDIR=$tree CCACHE_NOHASHDIR=1 PATH=/usr/sbin:/usr/bin:/sbin:/bin dpkg-buildpackage -us -uc -b >"$scratch/build.log" 2>&1 ||
+CCACHE_BASEDIR=$tree CCACHE_NOHASHDIR=1 PATH=/usr/sbin:/usr/bin:/sbin:/bin \
+  dpkg-buildpackage -us -uc -b >"$scratch/build.log" 2>&1 ||
   { tail -n 40 "$scratch/build.log" >&2; fail "the packages cannot be built"; }
 cd "$scratch"
 lintian --fail-on error,warning --allow-root *_source.changes *_"$(dpkg --print-architecture)".changes \
