@@ -15,7 +15,7 @@ namespace voxelcore
 
 struct FollowOptions
 {
-  std::vector<std::filesystem::path>   days;          ///< two or more: scans, or skeletons (.vtp .swc .rsml .graphml), in order
+  std::vector<std::filesystem::path>   days;          ///< two or more, in order: scans, or skeletons
   SkeletonOptions                      making;        ///< how scans are read, and how their skeletons are made
   std::vector<double>                  times;         ///< of the days, rising; empty: 1, 2, ...
   std::optional<Lambda>                near;          ///< the least tolerance; none: a voxel's diagonal, of skeletons 0
