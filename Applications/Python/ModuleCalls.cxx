@@ -10,6 +10,7 @@
 #include "voxelcore/Certified/CertifiedThickness.h"
 #include "voxelcore/Compare/ProbabilityJob.h"
 #include "voxelcore/Imaging/ScanRows.h"
+#include "voxelcore/Report/ResultRecords.h"
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
