@@ -36,6 +36,7 @@ make_inputs() {
   mkdir bones
   voxelcore phantom porous --size 20 -o bones/femur.nrrd -q
   printf 'id,scan,stems\nmaize1,root.nii.gz,1\n' >season.csv
+  printf 'id,scan,b\npatient1,truth.nii.gz,network.nii.gz\n' >pairs.csv
   awk 'BEGIN {
     print "NRRD0004\ntype: short\ndimension: 3\nsizes: 20 20 20\nspace: left-posterior-superior"
     print "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\nencoding: ascii\n"

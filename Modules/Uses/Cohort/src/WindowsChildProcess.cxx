@@ -278,7 +278,7 @@ ChildProcess::TakeRequest()
     }
     return std::nullopt;
   }
-  std::from_chars(text.data(), text.data() + count, megabytes);
+  from_chars(text.data(), text.data() + count, megabytes);
   return megabytes;
 }
 
