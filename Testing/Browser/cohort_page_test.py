@@ -67,12 +67,15 @@ def multiply(out, name):
         new = f"sub-s{i:03}"
         os.mkdir(f"{out}/{new}")
         report["labels"][0]["volume_mm3"] = 1e6 if i == 77 else 1000 + (i * 37) % 100
+        said = json.dumps(report)
         with open(f"{out}/{new}/{new}_report.json", "w", encoding="utf-8") as file:
-            json.dump(report, file)
+            file.write(said)
         shutil.copy(f"{folder}/{name}_thumbnail.png", f"{out}/{new}/{new}_thumbnail.png")
         os.link(f"{folder}/{name}_view.html", f"{out}/{new}/{new}_view.html")
         one = dict(record, id=f"s{i:03}" if i != 5 else HOSTILE, seconds=1)
         one["outputs"] = [dict(o, name=o["name"].replace(name, new)) for o in record["outputs"]]
+        written = next(o for o in one["outputs"] if o["name"] == f"{new}_report.json")
+        written.update(bytes=len(said), sha256=hashlib.sha256(said.encode()).hexdigest())
         del one["sha256"]
         text = json.dumps(one, indent=1, ensure_ascii=False)
         one["sha256"] = hashlib.sha256(text.encode()).hexdigest()
