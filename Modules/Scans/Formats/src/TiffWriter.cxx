@@ -173,6 +173,12 @@ WriteTiff(const std::filesystem::path & path, const VolumeToWrite & volume)
     TIFFSetField(t, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
     TIFFSetField(t, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     TIFFSetField(t, TIFFTAG_COMPRESSION, volume.compress ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
+#ifdef TIFFTAG_DEFLATE_SUBCODEC
+    if (volume.compress) // a libtiff that has libdeflate, too, would give other bytes than one that has not
+    {
+      TIFFSetField(t, TIFFTAG_DEFLATE_SUBCODEC, DEFLATE_SUBCODEC_ZLIB);
+    }
+#endif
     TIFFSetField(t, TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(rowsPerStrip));
     TIFFSetField(t, TIFFTAG_RESOLUTIONUNIT, RESUNIT_NONE); // in the unit that the description names
     TIFFSetField(t, TIFFTAG_XRESOLUTION, 1 / volume.geometry.spacing[0]);
