@@ -236,8 +236,7 @@ TolerancesOfTriangles(const CellComplex &               triangles,
   }
   if (!isWhole)
   {
-    const auto & ended = whole.tolerances.vertices; // at what never goes
-    RaiseToRemoval(triangles, ended.empty() ? 0 : *std::max_element(ended.begin(), ended.end()), values);
+    RaiseToRemoval(triangles, GreatestTolerance(whole), values);
   }
   RaiseTolerances(values, height);
   return values;

@@ -28,6 +28,10 @@ ColumnsOf(const std::vector<Row> & rows);
 std::string
 CsvTable(const std::vector<Row> & rows, const std::vector<TextColumn> & columns, HeadUnits units);
 
+/** Of one value or more; of an even number the mean of the two in the middle. */
+double
+Median(std::vector<double> values);
+
 /** Marks what stands out in a cohort. Rows of one label (`label` and `name`) are compared in volume, area, greatest
  *  radius, length, mean radius and numbers of branches, tips and junctions, plants also in their traits, maps also in
  *  their thickness. A value is an outlier when it lies more than 3.5 robust standard deviations (1.4826 times the

@@ -145,14 +145,6 @@ ChildProcess::ChildProcess(const std::vector<std::string> & arguments, int lock)
   }
 }
 
-ChildProcess::ChildProcess(ChildProcess && other) noexcept
-  : m_Process(std::exchange(other.m_Process, -1))
-  , m_End(std::exchange(other.m_End, -1))
-  , m_Channel(std::exchange(other.m_Channel, -1))
-  , m_Messages(std::exchange(other.m_Messages, -1))
-  , m_Start(other.m_Start)
-{}
-
 ChildProcess::~ChildProcess()
 {
   if (m_Process > 0)

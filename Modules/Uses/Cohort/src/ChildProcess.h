@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <sys/types.h>
+#include <utility>
 #include <vector>
 
 namespace voxelcore
@@ -33,7 +34,13 @@ public:
    *  process ends; it is the first that a kernel short of memory takes; it inherits `lock`.
    *  \throws Error when no process can be started */
   ChildProcess(const std::vector<std::string> & arguments, int lock);
-  ChildProcess(ChildProcess && other) noexcept;
+  ChildProcess(ChildProcess && other) noexcept
+    : m_Process(std::exchange(other.m_Process, -1))
+    , m_End(std::exchange(other.m_End, -1))
+    , m_Channel(std::exchange(other.m_Channel, -1))
+    , m_Messages(std::exchange(other.m_Messages, -1))
+    , m_Start(other.m_Start)
+  {}
   ChildProcess &
   operator=(ChildProcess && other) = delete;
   /** Kills it when it still runs. */

@@ -35,13 +35,6 @@ StudentWithin(double t, std::size_t freedom)
   return isOdd ? 2 / std::numbers::pi * (std::atan2(t, std::sqrt(nu)) + sine * sum) : sine * sum;
 }
 
-double
-MedianOf(const std::vector<double> & sorted)
-{
-  const std::size_t half = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-}
-
 } // namespace
 
 double
@@ -117,7 +110,7 @@ MeansOfComparisons(const std::vector<Row> & labels)
         row["ci95_high"] = mean + half;
         row["sd"] = sd;
       }
-      row["median"] = MedianOf(values);
+      row["median"] = Median(values);
       row["min"] = values.front();
       row["max"] = values.back();
       rows.push_back(std::move(row));

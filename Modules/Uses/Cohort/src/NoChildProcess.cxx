@@ -25,8 +25,6 @@ ChildProcess::ChildProcess(const std::vector<std::string> &, int)
   RequireChildProcesses();
 }
 
-ChildProcess::ChildProcess(ChildProcess &&) noexcept = default;
-
 ChildProcess::~ChildProcess() = default;
 
 std::optional<double>

@@ -44,14 +44,6 @@ constexpr auto kCompared = std::to_array<const char *>({ "volume_mm3",
                                                          "compare_hausdorff_95_mm",
                                                          "compare_tree_length_detected" });
 
-double
-Median(std::vector<double> values)
-{
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 std::optional<double>
 NumberAt(const Row & row, const std::string & column)
 {
@@ -100,6 +92,14 @@ Mark(std::vector<Row> & rows, const std::vector<std::size_t> & which, const std:
 }
 
 } // namespace
+
+double
+Median(std::vector<double> values)
+{
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
 
 void
 FindOutliers(std::vector<Row> & rows)
